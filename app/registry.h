@@ -1,0 +1,89 @@
+// The one door for parts: panels, importers, exporters, environment sources and built-in meshes. A part is a plain value;
+// the built-in ones are listed in builtin_parts(), in registry.cpp, and a loaded shared object would call the same add.
+#pragma once
+
+#include "renderer/core/environment.h"
+#include "renderer/core/image_io.h"
+#include "renderer/core/mesh.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+namespace ui {
+struct PanelContext;
+}
+
+/// A source of light. list() may be called often and must not open files it does not have to; load() runs on a worker and
+/// throws std::runtime_error with one sentence.
+struct EnvironmentItem {
+    std::string id;                  ///< what --env takes and documents store: "studio", or a path
+    std::string title;
+    std::string description;
+};
+struct EnvironmentSource {
+    std::string name;                ///< "built-in", "blender", "file"
+    std::string description;
+    std::function<std::vector<EnvironmentItem>()> list;
+    std::function<bool(const std::string& id)> accepts;
+    std::function<Environment(const std::string& id)> load;
+};
+
+/// extensions: lower case, without the dot. load throws std::runtime_error with one sentence that names the file.
+struct ImageImporter {
+    std::string name;
+    std::string description;
+    std::vector<std::string> extensions;
+    std::function<LoadedImage(const std::filesystem::path&)> load;
+};
+struct MeshImporter {
+    std::string name;
+    std::string description;
+    std::vector<std::string> extensions;
+    std::function<Mesh(const std::filesystem::path&)> load;
+};
+/// Writes pictures; atomic; chosen by the file's extension.
+struct ImageExporter {
+    std::string name;
+    std::string description;
+    std::vector<std::string> extensions;
+    std::function<void(const std::filesystem::path&, const Image&, const ImageMetadata&)> save;
+};
+struct MeshPart {
+    std::string id;
+    std::string title;
+    std::string description;
+    std::function<Mesh()> make;
+};
+enum class PanelSide { Left, Right, Bottom };
+struct PanelPart {
+    std::string id;
+    std::string title;
+    std::string description;
+    PanelSide side = PanelSide::Right;
+    std::function<void(ui::PanelContext&)> draw;
+};
+
+struct Registry {
+    std::vector<EnvironmentSource> environments;
+    std::vector<ImageImporter> image_importers;
+    std::vector<MeshImporter> mesh_importers;
+    std::vector<ImageExporter> image_exporters;
+    std::vector<MeshPart> meshes;
+    std::vector<PanelPart> panels;
+};
+
+/// Everything that ships with the program.
+Registry builtin_parts();
+
+/// By id ("studio") or file path; throws std::runtime_error that names what was asked for and what there is.
+Environment load_environment(const Registry& registry, const std::string& id);
+/// By id ("sphere") or file path; likewise.
+Mesh load_mesh_part(const Registry& registry, const std::string& id);
+/// By the file's extension; likewise.
+LoadedImage import_image(const Registry& registry, const std::filesystem::path& file);
+
+}  // namespace patina

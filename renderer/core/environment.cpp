@@ -1,0 +1,1 @@
+#include "renderer/core/environment.h"

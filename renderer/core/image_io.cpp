@@ -1,0 +1,1 @@
+#include "renderer/core/image_io.h"

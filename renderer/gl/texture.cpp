@@ -1,0 +1,1 @@
+// The GL side: filled in below.

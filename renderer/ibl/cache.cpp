@@ -1,0 +1,1 @@
+#include "renderer/ibl/cache.h"
