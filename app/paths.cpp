@@ -1,0 +1,88 @@
+#include "app/paths.h"
+
+#include <cstdlib>
+
+#ifdef _WIN32
+#include <windows.h>
+#elif defined(__APPLE__)
+#include <mach-o/dyld.h>
+#endif
+
+namespace patina {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path from_environment(const char* name) {
+    const char* value = std::getenv(name);
+    return value && *value ? path_from_utf8(value) : fs::path{};
+}
+
+/// The user's own folder for one kind of data: an override, the XDG variable, else the system's habit.
+fs::path user_folder(const char* override_name, const char* xdg_name, const char* unix_habit,
+                     const char* mac_habit, const char* windows_habit) {
+    if (fs::path chosen = from_environment(override_name); !chosen.empty()) return chosen;
+#ifdef _WIN32
+    (void)xdg_name, (void)unix_habit, (void)mac_habit;
+    fs::path base = from_environment("LOCALAPPDATA");
+    return (base.empty() ? fs::temp_directory_path() : base) / "patina" / windows_habit;
+#else
+    (void)windows_habit;
+    // The XDG specification has relative values ignored.
+    if (fs::path base = from_environment(xdg_name); base.is_absolute()) return base / "patina";
+    fs::path home = from_environment("HOME");
+    if (home.empty()) return fs::temp_directory_path() / "patina";
+#ifdef __APPLE__
+    (void)unix_habit;
+    return home / mac_habit / "patina";
+#else
+    (void)mac_habit;
+    return home / unix_habit / "patina";
+#endif
+#endif
+}
+
+}  // namespace
+
+fs::path path_from_utf8(std::string_view text) {
+    return fs::path(std::u8string(reinterpret_cast<const char8_t*>(text.data()), text.size()));
+}
+
+std::string utf8_from_path(const fs::path& path) {
+    const std::u8string text = path.u8string();
+    return {reinterpret_cast<const char*>(text.data()), text.size()};
+}
+
+fs::path program_folder() {
+    std::error_code ignored;
+#ifdef _WIN32
+    std::wstring name(32768, L'\0');
+    name.resize(GetModuleFileNameW(nullptr, name.data(), static_cast<DWORD>(name.size())));
+    return fs::path(name).parent_path();
+#elif defined(__APPLE__)
+    std::string name(4096, '\0');
+    auto size = static_cast<std::uint32_t>(name.size());
+    if (_NSGetExecutablePath(name.data(), &size) != 0) return fs::current_path(ignored);
+    return fs::weakly_canonical(fs::path(name.c_str()), ignored).parent_path();
+#else
+    const fs::path name = fs::read_symlink("/proc/self/exe", ignored);
+    return name.empty() ? fs::current_path(ignored) : name.parent_path();
+#endif
+}
+
+fs::path share_folder() {
+    if (fs::path chosen = from_environment("PATINA_SHARE_DIR"); !chosen.empty()) return chosen;
+    return program_folder().parent_path() / "share" / "patina";
+}
+
+fs::path cache_folder() {
+    return user_folder("PATINA_CACHE_DIR", "XDG_CACHE_HOME", ".cache", "Library/Caches", "cache");
+}
+
+fs::path state_folder() {
+    return user_folder("PATINA_STATE_DIR", "XDG_STATE_HOME", ".local/state", "Library/Application Support",
+                       "state");
+}
+
+}  // namespace patina

@@ -1,0 +1,26 @@
+// Where the program finds and keeps things: shipped data, cache, state. Only names folders; creates none.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace patina {
+
+/// The folder of the running executable.
+std::filesystem::path program_folder();
+/// Shipped presets and data: PATINA_SHARE_DIR, else ../share/patina beside the executable's folder.
+std::filesystem::path share_folder();
+/// Things that can be made again (baked light, thumbnails): PATINA_CACHE_DIR, else XDG_CACHE_HOME/patina,
+/// ~/.cache/patina,
+/// ~/Library/Caches/patina or %LOCALAPPDATA%\patina\cache.
+std::filesystem::path cache_folder();
+/// Things that must not be lost (recovery file, settings): PATINA_STATE_DIR, else XDG_STATE_HOME/patina,
+/// ~/.local/state/patina, ~/Library/Application Support/patina or %LOCALAPPDATA%\patina\state.
+std::filesystem::path state_folder();
+
+/// UTF-8 text ↔ path on every system.
+std::filesystem::path path_from_utf8(std::string_view text);
+std::string utf8_from_path(const std::filesystem::path& path);
+
+}  // namespace patina
