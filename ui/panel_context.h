@@ -1,0 +1,251 @@
+// Everything the panels see and change in one frame: plain data in, edits and requests out. Knows no ImGui,
+// no GL, no file.
+//
+// The app keeps the referenced values, fills the const ones before draw_workspace and reads requests and
+// result after it. A texture is an opaque id (what the ImGui backend takes as ImTextureID); 0 is none.
+#pragma once
+
+#include "materials/material.h"
+#include "renderer/core/camera.h"
+#include "renderer/core/view.h"
+#include "ui/recorder.h"
+#include "ui/requests.h"
+
+#include <glm/vec2.hpp>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace patina::ui {
+
+struct PanelContext;
+using TextureId = std::uintptr_t;
+
+/// One page of the workspace. Left pages are tabs of the library, right ones tabs of the inspector, bottom
+/// ones drawers.
+enum class Side { Left, Right, Bottom };
+struct Panel {
+    std::string id;
+    std::string title;
+    std::string description;  ///< the tab's tooltip
+    Side side = Side::Right;
+    std::function<void(PanelContext&)> draw;
+};
+
+// ---- what there is to choose from
+// -------------------------------------------------------------------------------------
+
+struct CatalogItem {
+    std::string id;  ///< environment or mesh id ("studio", or a path); a preset's path
+    std::string title;
+    std::string description;  ///< one sentence; the tooltip
+    std::string group;        ///< heading it stands under ("Metals", "Built-in", "Opened"); may be empty
+    TextureId thumbnail = 0;  ///< 0: not there yet, a placeholder is drawn
+};
+struct Catalog {
+    std::vector<CatalogItem> presets;
+    std::vector<CatalogItem> environments;  ///< thumbnails 2:1
+    std::vector<CatalogItem> meshes;
+    std::vector<std::string> recent;  ///< preset paths, newest first
+};
+
+// ---- what the program is doing
+// ----------------------------------------------------------------------------------------
+
+enum class MapState { None, Loading, Ok, Missing, Broken };
+struct MapStatus {
+    MapState state = MapState::None;
+    std::string message;                      ///< one sentence when missing or broken, else empty
+    std::string full_path;                    ///< resolved; for Reveal and the tooltip
+    int width = 0, height = 0, channels = 0;  ///< once loaded
+    int bits = 0;                             ///< 8, 16 or 32 a channel
+    std::uint64_t file_bytes = 0;
+    TextureId thumbnail = 0;
+};
+
+enum class Severity { Info, Warning, Error };
+struct LogLine {
+    Severity severity = Severity::Info;
+    std::string text;  ///< one sentence
+    std::string time;  ///< "14:03:07"
+    int count = 1;     ///< the same line so many times in a row
+};
+struct JobLine {
+    std::uint64_t id = 0;
+    std::string label;      ///< "Baking peppermint_powerplant"
+    float progress = 0.0f;  ///< 0…1; < 0: not known
+    bool can_cancel = true;
+};
+struct Status {
+    std::string text;  ///< when nothing runs: "Saved gold.json"; empty: "Ready"
+    Severity severity = Severity::Info;
+    std::vector<JobLine> jobs;
+    std::vector<LogLine> log;  ///< oldest first
+    std::string title;         ///< the document's: "gold", "Untitled"
+    std::string file;          ///< its path, empty when never saved
+    bool dirty = false;
+    bool can_undo = false, can_redo = false;
+    std::string undo_what, redo_what;   ///< "Roughness"; may be empty
+    std::uint64_t frames_rendered = 0;  ///< of the viewport: stands still while nothing changes
+    std::string renderer;               ///< GL renderer and version, for Help
+    std::string version;
+};
+
+// ---- questions
+// --------------------------------------------------------------------------------------------------------
+
+struct UnsavedQuestion {
+    std::string title;   ///< the document's
+    std::string action;  ///< what waits: "open Gold", "close Patina"
+};
+struct RecoveryQuestion {
+    std::string title;
+    std::string when;  ///< "today at 14:03"
+};
+
+/// One decision of an import: this channel of this file goes to that slot. A packed file has one row a slot.
+struct ImportRow {
+    std::string file;  ///< full path
+    std::string name;  ///< as shown
+    TextureId thumbnail = 0;
+    std::optional<Slot> slot;  ///< empty: the file is left out
+    Channel channel = Channel::R;
+    bool invert = false;
+    ColorSpace color_space = ColorSpace::Linear;
+    NormalConvention convention = NormalConvention::OpenGl;
+    std::string reason;  ///< one sentence: "“_nor_dx” means a DirectX normal map"
+};
+struct ImportSheet {
+    std::string title;  ///< the set's name
+    std::vector<ImportRow> rows;
+    std::vector<std::string> notes;  ///< "height.png has no slot and is left out"
+    bool rename_material = true;     ///< give the material the set's name
+};
+
+// ---- the file browser
+// -------------------------------------------------------------------------------------------------
+
+enum class BrowserPurpose {
+    OpenPreset,
+    SavePreset,
+    AssignMap,
+    LocateMap,
+    ImportFolder,
+    OpenEnvironment,
+    OpenMesh,
+    ExportRender
+};
+struct BrowserEntry {
+    std::string name;
+    std::string path;
+    bool is_folder = false;
+    std::uint64_t bytes = 0;
+    std::string modified;  ///< "2026-03-01 14:03"
+};
+struct BrowserPlace {
+    std::string title;  ///< "Home", "Presets", "/media/usb"
+    std::string path;
+};
+/// Panels open it with open_browser() (or the app with the same fields) and ask for ListFolder; the app fills
+/// the listing unsorted and unfiltered by name, all files; the panel sorts and filters by extension and
+/// search text.
+struct FileBrowser {
+    bool open = false;
+    BrowserPurpose purpose = BrowserPurpose::OpenPreset;
+    Slot slot = Slot::Albedo;  ///< AssignMap, LocateMap
+    // By the app:
+    std::string folder;
+    std::vector<BrowserEntry> entries;
+    std::vector<BrowserPlace> places;
+    std::string error;  ///< one sentence: why the folder cannot be read
+    // By the panel:
+    std::string search;
+    std::string selected;   ///< path
+    std::string file_name;  ///< SavePreset, ExportRender
+    std::string typed_folder;
+    bool show_all = false;  ///< also files of other types
+};
+
+// ---- the interface's own state, nothing of the document
+// ---------------------------------------------------------------
+
+struct UiState {
+    std::string left_tab, right_tab;  ///< panel ids; empty: the first
+    std::string drawer;               ///< open bottom panel's id; empty: closed
+    bool show_library = true;
+    bool show_inspector = true;
+    float library_width = 244.0f;  ///< at scale 1
+    float inspector_width = 348.0f;
+    float drawer_height = 190.0f;
+    std::string search_presets, search_environments, search_meshes;
+    bool show_shortcuts = false;  ///< the `?` sheet
+    bool show_about = false;
+    bool log_only_problems = false;
+    std::uint64_t log_seen = 0;            ///< lines of the log that were shown
+    std::array<bool, kSlots> slot_open{};  ///< map options unfolded
+    int export_width = 1920, export_height = 1080;
+    std::string focus_search;      ///< panel id whose search field takes the keyboard next frame
+    std::optional<Slot> hit_slot;  ///< slot under the last drop, flashed for a moment
+    double hit_time = 0.0;
+    bool rotating_light = false;  ///< the viewport drag under way turns the light
+    bool viewport_drag = false;
+};
+
+struct Drop {
+    std::vector<std::string> files;
+    glm::vec2 position{0.0f};  ///< display coordinates
+};
+
+struct Viewport {
+    TextureId texture = 0;  ///< the display picture; 0: nothing to show yet
+    bool bottom_up = true;  ///< its first row is the bottom (OpenGL)
+};
+
+/// What the app needs to know after a frame.
+struct WorkspaceResult {
+    glm::ivec2 viewport_size_px{0};  ///< framebuffer pixels the picture should have; 0×0: hidden
+    bool viewport_active = false;    ///< orbiting, panning or turning the light
+    bool item_active = false;        ///< a slider or text field is held: an undo step is not finished
+    bool wants_redraw = false;       ///< something moves by itself: draw another frame soon
+};
+
+struct PanelContext {
+    // Edited in place.
+    Material& material;
+    View& view;
+    Camera& camera;
+    std::string& mesh;         ///< catalog id or path
+    std::string& environment;  ///< catalog id or path
+    UiState& ui;
+    FileBrowser& browser;
+    std::optional<ImportSheet>& import_sheet;
+
+    // What the document's file holds (Material{} and View{} for a new one): differing values are marked.
+    const Material& saved_material;
+    const View& saved_view;
+
+    // Seen.
+    const Catalog& catalog;
+    const Status& status;
+    const std::array<MapStatus, kSlots>& maps;
+    const MeshInfo& mesh_info;
+    const EnvironmentInfo& environment_info;
+    const std::vector<Panel>& panels;  ///< builtin_panels() and whatever the registry adds
+    Viewport viewport;
+    const UnsavedQuestion* unsaved = nullptr;
+    const RecoveryQuestion* recovery = nullptr;
+    const Drop* drop = nullptr;  ///< dropped since the last frame; panels turn it into request::Dropped
+    std::optional<glm::vec2> drag_over;  ///< files are dragged over this point, where the system tells
+    float scale = 1.0f;                  ///< of the interface: 1 = 96 dpi
+
+    // Out.
+    Requests requests;
+    WorkspaceResult result;
+    ItemRecorder* recorder = nullptr;  ///< filled anew when there
+};
+
+}  // namespace patina::ui

@@ -1,0 +1,125 @@
+// What the artist asks for, as a plain list of values. Panels append; the app carries out and clears. Knows
+// no ImGui.
+//
+// Paths are UTF-8 text with forward slashes. Values that are edited in place (material, view, camera, mesh
+// and environment id) are no requests: the app sees them change by comparing documents.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace patina::ui {
+
+/// The map slots of a material, in the order shown.
+enum class Slot { Albedo, Roughness, Metallic, Ao, Normal, Emission };
+inline constexpr std::size_t kSlots = 6;
+
+namespace request {
+
+// The document. New, Open and Quit may find unsaved changes: the app then sets PanelContext::unsaved and
+// waits for Answer.
+struct New {};
+struct Open {
+    std::string file;  ///< a preset
+};
+struct Save {};  ///< to the document's file; without one the app opens the browser for SaveAs
+struct SaveAs {
+    std::string file;
+};
+struct Revert {};  ///< back to what the file holds; undoable
+struct Undo {};
+struct Redo {};
+struct Quit {};
+enum class Choice { Save, Discard, Cancel };
+struct AnswerUnsaved {
+    Choice choice = Choice::Cancel;
+};
+struct AnswerRecovery {
+    bool recover = false;  ///< false: the autosaved document is thrown away
+};
+struct ClearRecent {};
+
+// Maps.
+struct AssignMap {  ///< put this file into this slot, as it is
+    Slot slot = Slot::Albedo;
+    std::string file;
+};
+struct ClearMap {
+    Slot slot = Slot::Albedo;
+};
+struct ReloadMap {  ///< read it again from disk
+    Slot slot = Slot::Albedo;
+};
+struct LocateMap {  ///< the missing file is here; other missing maps may lie beside it
+    Slot slot = Slot::Albedo;
+    std::string file;
+};
+struct Reveal {  ///< show it in the system's file manager
+    std::string path;
+};
+/// Files or folders dropped on the window; slot: the slot under the mouse, if any. The app tells presets,
+/// maps, folders, meshes and environments apart and may open the import sheet.
+struct Dropped {
+    std::vector<std::string> files;
+    std::optional<Slot> slot;
+};
+struct ImportMaps {  ///< propose an assignment for this folder or these files
+    std::vector<std::string> files;
+};
+struct ApplyImport {};  ///< take PanelContext::import_sheet as it now stands, then reset it
+struct CancelImport {};
+
+// Light and shape from files; ids of the catalog are set directly in the context.
+struct LoadEnvironment {
+    std::string file;
+};
+struct LoadMesh {
+    std::string file;
+};
+
+// Pictures, work, files.
+struct ExportRender {
+    std::string file;  ///< .png: display picture, .exr: scene-linear radiance
+    int width = 0;
+    int height = 0;
+};
+struct CancelJob {
+    std::uint64_t id = 0;
+};
+struct ClearLog {};
+struct CopyText {  ///< to the clipboard
+    std::string text;
+};
+/// Open PanelContext::browser's folder, or another one; the app fills browser.folder, entries and error.
+struct ListFolder {
+    std::string folder;  ///< empty: where the app thinks best for browser.purpose
+};
+struct MakeFolder {
+    std::string folder;
+};
+
+}  // namespace request
+
+using Request =
+    std::variant<request::New, request::Open, request::Save, request::SaveAs, request::Revert, request::Undo,
+                 request::Redo, request::Quit, request::AnswerUnsaved, request::AnswerRecovery,
+                 request::ClearRecent, request::AssignMap, request::ClearMap, request::ReloadMap,
+                 request::LocateMap, request::Reveal, request::Dropped, request::ImportMaps,
+                 request::ApplyImport, request::CancelImport, request::LoadEnvironment, request::LoadMesh,
+                 request::ExportRender, request::CancelJob, request::ClearLog, request::CopyText,
+                 request::ListFolder, request::MakeFolder>;
+using Requests = std::vector<Request>;
+
+/// The first request of type T, or nullptr.
+template <class T>
+const T* find_request(const Requests& requests) {
+    for (const Request& request : requests)
+        if (const T* found = std::get_if<T>(&request)) return found;
+    return nullptr;
+}
+
+}  // namespace patina::ui
