@@ -36,8 +36,7 @@ struct Panel {
     std::function<void(PanelContext&)> draw;
 };
 
-// ---- what there is to choose from
-// -------------------------------------------------------------------------------------
+// ---- what there is to choose from ----
 
 struct CatalogItem {
     std::string id;  ///< environment or mesh id ("studio", or a path); a preset's path
@@ -53,8 +52,7 @@ struct Catalog {
     std::vector<std::string> recent;  ///< preset paths, newest first
 };
 
-// ---- what the program is doing
-// ----------------------------------------------------------------------------------------
+// ---- what the program is doing ----
 
 enum class MapState { None, Loading, Ok, Missing, Broken };
 struct MapStatus {
@@ -95,8 +93,21 @@ struct Status {
     std::string version;
 };
 
-// ---- questions
-// --------------------------------------------------------------------------------------------------------
+/// What lies under the current mesh and environment ids, once loaded; empty while loading or after a failure.
+struct MeshInfo {
+    std::string title;
+    std::uint64_t triangles = 0, vertices = 0;
+    bool has_uvs = true;
+    std::vector<std::string> notes;
+};
+struct EnvironmentInfo {
+    std::string title;
+    int width = 0, height = 0;
+    float max_radiance = 0.0f;
+    std::vector<std::string> notes;
+};
+
+// ---- questions ----
 
 struct UnsavedQuestion {
     std::string title;   ///< the document's
@@ -126,8 +137,7 @@ struct ImportSheet {
     bool rename_material = true;     ///< give the material the set's name
 };
 
-// ---- the file browser
-// -------------------------------------------------------------------------------------------------
+// ---- the file browser ----
 
 enum class BrowserPurpose {
     OpenPreset,
@@ -170,8 +180,7 @@ struct FileBrowser {
     bool show_all = false;  ///< also files of other types
 };
 
-// ---- the interface's own state, nothing of the document
-// ---------------------------------------------------------------
+// ---- the interface's own state, nothing of the document ----
 
 struct UiState {
     std::string left_tab, right_tab;  ///< panel ids; empty: the first
