@@ -1,0 +1,270 @@
+#include "app/args.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+namespace patina {
+
+namespace {
+
+constexpr int kMaxPictureSide = 16384;
+
+/// "1,2,3" → numbers; an error names the text.
+std::vector<float> parse_numbers(const std::string& text, char separator) {
+    std::vector<float> numbers;
+    const char* at = text.data();
+    const char* end = at + text.size();
+    while (true) {
+        float number = 0.0f;
+        const auto [next, error] = std::from_chars(at, end, number);
+        if (error != std::errc{} || !std::isfinite(number))
+            throw CLI::ValidationError("'" + text + "' is not a list of numbers");
+        numbers.push_back(number);
+        if (next == end) return numbers;
+        if (*next != separator) throw CLI::ValidationError("'" + text + "' is not a list of numbers");
+        at = next + 1;
+    }
+}
+
+void add_size(CLI::App& app, const std::string& name, glm::ivec2& size, const std::string& help) {
+    app.add_option_function<std::string>(
+           name,
+           [&size](const std::string& text) {
+               const std::vector<float> sides = parse_numbers(text, 'x');
+               const auto valid = [](float side) {
+                   return side >= 1.0f && side <= float(kMaxPictureSide) && side == std::floor(side);
+               };
+               if (sides.size() != 2 || !valid(sides[0]) || !valid(sides[1]))
+                   throw CLI::ValidationError("a size is WIDTHxHEIGHT, each 1 to 16384, not '" + text + "'");
+               size = {int(sides[0]), int(sides[1])};
+           },
+           help)
+        ->type_name("WxH");
+}
+
+/// An option that takes one id of a table of names, listed in its help.
+template <class T, std::size_t n>
+void add_named(CLI::App& app, const std::string& name, const std::array<Named<T>, n>& table, T& target,
+               const std::string& help) {
+    std::string ids;
+    for (const auto& row : table) ids += (ids.empty() ? "" : "|") + std::string(row.id);
+    app.add_option_function<std::string>(
+           name,
+           [&table, &target, name, ids](const std::string& text) {
+               const std::optional<T> value = value_of(table, text);
+               if (!value) throw CLI::ValidationError(name + " takes " + ids + ", not '" + text + "'");
+               target = *value;
+           },
+           help)
+        ->type_name(ids);
+}
+
+void add_camera(CLI::App& app, Camera& camera) {
+    app.add_option_function<std::string>(
+           "--camera",
+           [&camera](const std::string& text) {
+               const std::vector<float> values = parse_numbers(text, ',');
+               if (values.size() != 3 || std::abs(values[1]) > 89.9f || values[2] <= 0.0f)
+                   throw CLI::ValidationError(
+                       "a camera is YAW,PITCH,DISTANCE with pitch within 89.9 degrees and distance above 0, "
+                       "not '" +
+                       text + "'");
+               camera.yaw_deg = values[0];
+               camera.pitch_deg = values[1];
+               camera.distance = values[2];
+           },
+           "Where the camera stands, looking at the origin (default 0,0,4.5)")
+        ->type_name("YAW,PITCH,DIST");
+}
+
+void add_overrides(CLI::App& app, SceneOptions& scene) {
+    app.add_option_function<std::vector<std::string>>(
+           "--set",
+           [&scene](const std::vector<std::string>& texts) {
+               for (const std::string& text : texts) {
+                   const std::size_t equals = text.find('=');
+                   if (equals == std::string::npos || equals == 0)
+                       throw CLI::ValidationError("--set takes KEY=VALUE, not '" + text + "'");
+                   scene.overrides.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+               }
+           },
+           "Override a value, such as albedo=0.8,0.1,0.1 or roughness=0.3 (repeatable)")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+}
+
+void add_scene(CLI::App& app, SceneOptions& scene) {
+    app.add_option("--mesh", scene.mesh, "sphere, quad, cube, torus, shaderball, or a mesh file")
+        ->type_name("ID|FILE");
+    app.add_option("--env-rotation", scene.view.env_rotation_deg, "Turn the light about the vertical axis")
+        ->type_name("DEG");
+    app.add_option("--exposure", scene.view.exposure_ev, "Exposure in stops")
+        ->type_name("EV")
+        ->check(CLI::Range(-30.0, 30.0));
+    add_size(app, "--size", scene.size_px, "Size of a picture in pixels (default 512x512)");
+    add_camera(app, scene.camera);
+    add_named(app, "--shading", kShadings, scene.view.shading, "How light is computed");
+    add_named(app, "--tonemap", kTonemaps, scene.view.tonemap, "How radiance becomes a picture (PNG only)");
+    add_named(app, "--background", kBackgrounds, scene.view.background, "What is seen behind the object");
+    add_named(app, "--debug-view", kDebugViews, scene.view.debug,
+              "Show one ingredient instead of the picture");
+    add_overrides(app, scene);
+    app.add_flag("--allow-missing-maps", scene.allow_missing_maps,
+                 "Draw a checkerboard where a map cannot be read");
+}
+
+void add_edit(CLI::App& root, Args& args) {
+    CLI::App* app = root.add_subcommand("edit", "Open the editor (the default)");
+    app->add_option("preset", args.edit.preset, "A preset to open")->type_name("PRESET");
+    app->add_option("--mesh", args.edit.mesh, "A built-in mesh or a mesh file")->type_name("ID|FILE");
+    app->add_option("--env", args.edit.environment, "A built-in environment or a picture file")
+        ->type_name("ID|FILE");
+    add_size(*app, "--window", args.edit.window_px, "Size of the window in pixels");
+    app->add_option("--drive", args.edit.drive_script, "Play a script of clicks and keys, then quit")
+        ->type_name("FILE");
+}
+
+void add_render_and_compare(CLI::App& root, Args& args) {
+    CLI::App* render = root.add_subcommand("render", "Render one preset to a picture");
+    render
+        ->add_option("preset", args.render.presets,
+                     "A preset file, the name of a shipped one, or - for the default material")
+        ->required()
+        ->expected(1)
+        ->type_name("PRESET");
+    CLI::App* compare =
+        root.add_subcommand("compare", "Render a labelled sheet: a row a preset, a column a lighting");
+    compare->add_option("presets", args.render.presets, "Presets, one row each")->type_name("PRESET...");
+    render->add_option("--env", args.render.scene.environments, "A built-in environment or a picture file")
+        ->type_name("ID|FILE")
+        ->allow_extra_args(false);
+    compare->add_option("--env", args.render.scene.environments, "Environments, one column each")
+        ->type_name("ID|FILE...");
+    for (CLI::App* app : {render, compare}) {
+        app->add_option("-o,--output", args.render.output,
+                        "The picture to write: .png (display) or .exr (linear radiance)")
+            ->required()
+            ->type_name("FILE");
+        add_scene(*app, args.render.scene);
+    }
+}
+
+void add_bake(CLI::App& root, Args& args) {
+    CLI::App* app =
+        root.add_subcommand("bake", "Write the prefiltered light of an environment, for any program");
+    app->add_option("environment", args.bake.environment, "A built-in environment or a picture file")
+        ->required()
+        ->type_name("ENV");
+    app->add_option("-o,--output", args.bake.output, "The folder to write")->required()->type_name("DIR");
+    app->add_option("--size", args.bake.size, "No cube face is larger (default 256)")
+        ->check(CLI::Range(4, 4096))
+        ->type_name("N");
+    app->add_option_function<std::string>(
+           "--levels",
+           [&args](const std::string& text) {
+               args.bake.roughness = parse_numbers(text, ',');
+               std::ranges::sort(args.bake.roughness);
+               for (float r : args.bake.roughness)
+                   if (r < 0.0f || r > 1.0f)
+                       throw CLI::ValidationError("a roughness is 0 to 1; --levels got '" + text + "'");
+           },
+           "Exactly these roughness values instead of the standard levels")
+        ->type_name("R,R,...");
+    app->add_flag("--keep-lights", args.bake.keep_lights,
+                  "Fold lights that were taken out back into the levels");
+    app->add_option("--format", args.bake.format, "exr: face strips")
+        ->check(CLI::IsMember({"exr"}))
+        ->type_name("exr");
+}
+
+void add_bench(CLI::App& root, Args& args) {
+    CLI::App* app = root.add_subcommand("bench", "Measure run time and error; writes JSON");
+    app->add_option("names", args.bench.names, "Which benchmarks (default: all)")->type_name("NAME...");
+    app->add_option("--env", args.bench.environments, "Further environments to measure on")
+        ->type_name("FILE");
+    app->add_option("-o,--output", args.bench.output, "Folder for the results (default bench-results)")
+        ->type_name("DIR");
+    app->add_flag("--quick", args.bench.quick, "Fewer repetitions");
+}
+
+/// A file named like a preset among --env values belongs to the presets: `compare --env sky sunset
+/// gold.json`.
+void sort_out_presets(RenderArgs& render) {
+    std::vector<std::string>& environments = render.scene.environments;
+    const auto is_preset = [](const std::string& text) { return text == "-" || text.ends_with(".json"); };
+    std::ranges::copy_if(environments, std::back_inserter(render.presets), is_preset);
+    std::erase_if(environments, is_preset);
+}
+
+constexpr std::array kCommands{std::pair{"edit", Command::Edit},       std::pair{"render", Command::Render},
+                               std::pair{"compare", Command::Compare}, std::pair{"bake", Command::Bake},
+                               std::pair{"bench", Command::Bench},     std::pair{"check", Command::Check},
+                               std::pair{"list", Command::List}};
+
+/// `patina gold.json` means `patina edit gold.json`.
+std::vector<std::string> with_default_command(std::vector<std::string> words) {
+    constexpr std::array kRootOptions{"--help", "-h", "--version"};
+    const bool named =
+        !words.empty() &&
+        (std::ranges::any_of(kCommands, [&](const auto& row) { return words.front() == row.first; }) ||
+         std::ranges::any_of(kRootOptions, [&](const char* option) { return words.front() == option; }));
+    if (!named) words.insert(words.begin(), "edit");
+    return words;
+}
+
+Command chosen_command(const CLI::App& root) {
+    for (const auto& [name, command] : kCommands)
+        if (root.got_subcommand(name)) return command;
+    return Command::Edit;
+}
+
+}  // namespace
+
+ParsedArgs parse_args(const std::vector<std::string>& words) {
+    Args args;
+    CLI::App root("Patina, an editor for physically based materials", "patina");
+    root.set_version_flag("--version", "patina " PATINA_VERSION);
+    root.require_subcommand(1);
+    add_edit(root, args);
+    add_render_and_compare(root, args);
+    add_bake(root, args);
+    add_bench(root, args);
+    root.add_subcommand("check", "Validate presets and say what is wrong and where")
+        ->add_option("presets", args.check, "Preset files")
+        ->required()
+        ->type_name("PRESET...");
+    root.add_subcommand("list", "List what there is")
+        ->add_option("what", args.list, "What to list")
+        ->required()
+        ->check(CLI::IsMember({"environments", "meshes", "presets", "plugins"}))
+        ->type_name("environments|meshes|presets|plugins");
+    try {
+        std::vector<std::string> reversed = with_default_command(words);
+        std::ranges::reverse(reversed);
+        root.parse(std::move(reversed));
+    } catch (const CLI::ParseError& error) {
+        std::ostringstream out;
+        std::ostringstream ignored;
+        const bool asked_for_help = error.get_exit_code() == 0;
+        root.exit(error, out, ignored);
+        if (asked_for_help) return {std::nullopt, out.str(), 0};
+        std::string message = error.what();
+        while (message.ends_with('\n')) message.pop_back();
+        return {std::nullopt, "patina: " + message + " (patina --help lists what there is)\n", 2};
+    }
+    args.command = chosen_command(root);
+    sort_out_presets(args.render);
+    if (args.render.scene.environments.empty()) args.render.scene.environments = {"studio"};
+    if (args.command == Command::Compare && args.render.presets.empty())
+        return {std::nullopt, "patina: compare needs at least one preset\n", 2};
+    if (args.command == Command::Render &&
+        (args.render.presets.size() != 1 || args.render.scene.environments.size() != 1))
+        return {std::nullopt, "patina: render takes one preset and one --env; compare takes several\n", 2};
+    return {args, "", 0};
+}
+
+}  // namespace patina

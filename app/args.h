@@ -1,0 +1,74 @@
+// The command line as plain values. Knows no file and runs nothing.
+#pragma once
+
+#include "renderer/core/camera.h"
+#include "renderer/core/view.h"
+
+#include <glm/vec2.hpp>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace patina {
+
+/// What render, compare and edit share: how the scene is set up. Ids or file paths as typed.
+struct SceneOptions {
+    std::string mesh = "sphere";
+    std::vector<std::string> environments{"studio"};  ///< render and edit take exactly one
+    View view;
+    Camera camera;
+    glm::ivec2 size_px{512, 512};
+    std::vector<std::pair<std::string, std::string>> overrides;  ///< --set key=value, in order
+    bool allow_missing_maps = false;                             ///< draw the placeholder instead of failing
+};
+
+struct EditArgs {
+    std::string preset;  ///< empty: none was named
+    std::string mesh;    ///< empty: as last time
+    std::string environment;
+    std::string drive_script;
+    glm::ivec2 window_px{0};  ///< 0: as last time
+};
+struct RenderArgs {
+    std::vector<std::string> presets;  ///< one for render; "-" is the default material
+    std::string output;
+    SceneOptions scene;
+};
+struct BakeArgs {
+    std::string environment;
+    std::string output;
+    int size = 256;
+    std::vector<float> roughness;  ///< empty: the standard levels
+    bool keep_lights = false;
+    std::string format = "exr";
+};
+struct BenchArgs {
+    std::vector<std::string> names;         ///< empty: all
+    std::vector<std::string> environments;  ///< besides the built-in ones
+    std::string output;                     ///< folder; empty: bench-results
+    bool quick = false;
+};
+
+enum class Command { Edit, Render, Compare, Bake, Bench, Check, List };
+struct Args {
+    Command command = Command::Edit;
+    EditArgs edit;
+    RenderArgs render;
+    BakeArgs bake;
+    BenchArgs bench;
+    std::vector<std::string> check;  ///< presets
+    std::string list;                ///< environments | meshes | presets | plugins
+};
+
+/// Either what was asked for, or what to print and the exit status (0 for --help and --version, 2 for wrong
+/// usage).
+struct ParsedArgs {
+    std::optional<Args> args;
+    std::string message;
+    int exit_status = 0;
+};
+ParsedArgs parse_args(const std::vector<std::string>& words);
+
+}  // namespace patina
