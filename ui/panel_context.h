@@ -123,7 +123,7 @@ struct ImportRow {
     std::string file;  ///< full path
     std::string name;  ///< as shown
     TextureId thumbnail = 0;
-    std::optional<Slot> slot;  ///< empty: the file is left out
+    std::optional<MapSlot> slot;  ///< empty: the file is left out
     Channel channel = Channel::R;
     bool invert = false;
     ColorSpace color_space = ColorSpace::Linear;
@@ -166,7 +166,7 @@ struct BrowserPlace {
 struct FileBrowser {
     bool open = false;
     BrowserPurpose purpose = BrowserPurpose::OpenPreset;
-    Slot slot = Slot::Albedo;  ///< AssignMap, LocateMap
+    MapSlot slot = MapSlot::Albedo;  ///< AssignMap, LocateMap
     // By the app:
     std::string folder;
     std::vector<BrowserEntry> entries;
@@ -194,11 +194,11 @@ struct UiState {
     bool show_shortcuts = false;  ///< the `?` sheet
     bool show_about = false;
     bool log_only_problems = false;
-    std::uint64_t log_seen = 0;            ///< lines of the log that were shown
-    std::array<bool, kSlots> slot_open{};  ///< map options unfolded
+    std::uint64_t log_seen = 0;               ///< lines of the log that were shown
+    std::array<bool, kMapSlots> slot_open{};  ///< map options unfolded
     int export_width = 1920, export_height = 1080;
-    std::string focus_search;      ///< panel id whose search field takes the keyboard next frame
-    std::optional<Slot> hit_slot;  ///< slot under the last drop, flashed for a moment
+    std::string focus_search;         ///< panel id whose search field takes the keyboard next frame
+    std::optional<MapSlot> hit_slot;  ///< slot under the last drop, flashed for a moment
     double hit_time = 0.0;
     bool rotating_light = false;  ///< the viewport drag under way turns the light
     bool viewport_drag = false;
@@ -236,11 +236,12 @@ struct PanelContext {
     // What the document's file holds (Material{} and View{} for a new one): differing values are marked.
     const Material& saved_material;
     const View& saved_view;
+    const Camera& home_camera;  ///< where Home and a double-click in the viewport go back to
 
     // Seen.
     const Catalog& catalog;
     const Status& status;
-    const std::array<MapStatus, kSlots>& maps;
+    const std::array<MapStatus, kMapSlots>& maps;
     const MeshInfo& mesh_info;
     const EnvironmentInfo& environment_info;
     const std::vector<Panel>& panels;  ///< builtin_panels() and whatever the registry adds

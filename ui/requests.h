@@ -5,7 +5,8 @@
 // and environment id) are no requests: the app sees them change by comparing documents.
 #pragma once
 
-#include <cstddef>
+#include "materials/material.h"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,10 +14,6 @@
 #include <vector>
 
 namespace patina::ui {
-
-/// The map slots of a material, in the order shown.
-enum class Slot { Albedo, Roughness, Metallic, Ao, Normal, Emission };
-inline constexpr std::size_t kSlots = 6;
 
 namespace request {
 
@@ -38,24 +35,25 @@ enum class Choice { Save, Discard, Cancel };
 struct AnswerUnsaved {
     Choice choice = Choice::Cancel;
 };
+enum class Recovery { Recover, Discard, Later };
 struct AnswerRecovery {
-    bool recover = false;  ///< false: the autosaved document is thrown away
+    Recovery recovery = Recovery::Later;  ///< Later: kept, and asked for again at the next start
 };
 struct ClearRecent {};
 
 // Maps.
 struct AssignMap {  ///< put this file into this slot, as it is
-    Slot slot = Slot::Albedo;
+    MapSlot slot = MapSlot::Albedo;
     std::string file;
 };
 struct ClearMap {
-    Slot slot = Slot::Albedo;
+    MapSlot slot = MapSlot::Albedo;
 };
 struct ReloadMap {  ///< read it again from disk
-    Slot slot = Slot::Albedo;
+    MapSlot slot = MapSlot::Albedo;
 };
 struct LocateMap {  ///< the missing file is here; other missing maps may lie beside it
-    Slot slot = Slot::Albedo;
+    MapSlot slot = MapSlot::Albedo;
     std::string file;
 };
 struct Reveal {  ///< show it in the system's file manager
@@ -65,7 +63,7 @@ struct Reveal {  ///< show it in the system's file manager
 /// maps, folders, meshes and environments apart and may open the import sheet.
 struct Dropped {
     std::vector<std::string> files;
-    std::optional<Slot> slot;
+    std::optional<MapSlot> slot;
 };
 struct ImportMaps {  ///< propose an assignment for this folder or these files
     std::vector<std::string> files;

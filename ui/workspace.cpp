@@ -17,7 +17,7 @@ void draw_workspace(PanelContext& context) {
     context.result.item_active = ImGui::IsAnyItemActive();
 }
 
-void open_browser(PanelContext& context, BrowserPurpose purpose, Slot slot) {
+void open_browser(PanelContext& context, BrowserPurpose purpose, MapSlot slot) {
     context.browser.open = true;
     context.browser.purpose = purpose;
     context.browser.slot = slot;

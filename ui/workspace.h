@@ -15,7 +15,7 @@ std::vector<Panel> builtin_panels();
 void draw_workspace(PanelContext& context);
 
 /// Opens the file browser for a purpose and asks for its folder.
-void open_browser(PanelContext& context, BrowserPurpose purpose, Slot slot = Slot::Albedo);
+void open_browser(PanelContext& context, BrowserPurpose purpose, MapSlot slot = MapSlot::Albedo);
 
 /// Sets style and fonts of the current ImGui context; the font texture has to be uploaded again afterwards.
 /// scale: of the interface (1 = 96 dpi). framebuffer_scale: pixels a display unit (2 on a Retina Mac, else
