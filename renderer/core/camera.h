@@ -6,12 +6,13 @@
 
 namespace patina {
 
-/// Looks at target from target + distance·(sin yaw·cos pitch, sin pitch, cos yaw·cos pitch); +Y up; right-handed.
+/// Looks at target from target + distance·(sin yaw·cos pitch, sin pitch, cos yaw·cos pitch); +Y up;
+/// right-handed.
 struct Camera {
     float yaw_deg = 0.0f;
-    float pitch_deg = 0.0f;           ///< −89.9…89.9
-    float distance = 4.5f;            ///< > 0, in mesh radii
-    float fov_deg = 30.0f;            ///< vertical field of view
+    float pitch_deg = 0.0f;  ///< −89.9…89.9
+    float distance = 4.5f;   ///< > 0, in mesh radii
+    float fov_deg = 30.0f;   ///< vertical field of view
     glm::vec3 target{0.0f};
     bool operator==(const Camera&) const = default;
 };

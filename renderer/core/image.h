@@ -14,7 +14,8 @@ inline constexpr std::size_t bytes_per_channel(PixelType type) {
 }
 
 /// width × height pixels of 1…4 interleaved channels, row 0 at the top, rows tightly packed.
-/// Unsigned types mean value/max in 0…1; F32 is taken as it is. Values are as stored (no colour space is applied).
+/// Unsigned types mean value/max in 0…1; F32 is taken as it is. Values are as stored (no colour space is
+/// applied).
 struct Image {
     int width = 0;
     int height = 0;

@@ -1,0 +1,140 @@
+#include "renderer/core/file_io.h"
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <random>
+#include <stdexcept>
+#include <system_error>
+
+#ifdef _WIN32
+#include <io.h>
+#else
+#include <unistd.h>
+#endif
+
+namespace patina {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A C stream that closes itself: the one kind that can be flushed to the disk on every system.
+class Stream {
+public:
+    Stream(const fs::path& file, const char* mode) {
+#ifdef _WIN32
+        const std::wstring wide_mode(mode, mode + std::char_traits<char>::length(mode));
+        stream_ = _wfopen(file.c_str(), wide_mode.c_str());
+#else
+        stream_ = std::fopen(file.c_str(), mode);
+#endif
+    }
+    ~Stream() { close(); }
+    Stream(const Stream&) = delete;
+    Stream& operator=(const Stream&) = delete;
+    Stream(Stream&&) = delete;
+    Stream& operator=(Stream&&) = delete;
+
+    explicit operator bool() const { return stream_ != nullptr; }
+    std::FILE* get() const { return stream_; }
+    bool flush_to_disk() {
+        if (std::fflush(stream_) != 0) return false;
+#ifdef _WIN32
+        return _commit(_fileno(stream_)) == 0;
+#else
+        return fsync(fileno(stream_)) == 0;
+#endif
+    }
+    /// False where what was buffered could not be written.
+    bool close() {
+        std::FILE* stream = stream_;
+        stream_ = nullptr;
+        return stream == nullptr || std::fclose(stream) == 0;
+    }
+
+private:
+    std::FILE* stream_ = nullptr;
+};
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+[[noreturn]] void fail(const fs::path& file, const std::string& what) {
+    throw std::runtime_error(path_text(file) + ": " + what);
+}
+
+/// Removes the temporary file unless it was renamed away.
+class Leftover {
+public:
+    explicit Leftover(fs::path file) : file_(std::move(file)) {}
+    ~Leftover() {
+        std::error_code ignored;
+        if (!file_.empty()) fs::remove(file_, ignored);
+    }
+    Leftover(const Leftover&) = delete;
+    Leftover& operator=(const Leftover&) = delete;
+    Leftover(Leftover&&) = delete;
+    Leftover& operator=(Leftover&&) = delete;
+    void keep() { file_.clear(); }
+
+private:
+    fs::path file_;
+};
+
+/// A name of its own in the same folder: ".NAME.xxxxxxxx.tmp".
+fs::path temporary_name(const fs::path& file) {
+    std::array<char, 16> random{};
+    std::snprintf(random.data(), random.size(), "%08x", static_cast<unsigned>(std::random_device()()));
+    fs::path name = ".";
+    name += file.filename();
+    name += std::string(".") + random.data() + ".tmp";
+    return file.parent_path() / name;
+}
+
+void write_all(const fs::path& file, const fs::path& temporary, std::span<const std::byte> bytes) {
+    Stream stream(temporary, "wbx");
+    if (!stream) fail(file, "cannot be written (" + reason(errno) + "); choose another folder");
+    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stream.get()) == bytes.size() &&
+                         stream.flush_to_disk() && stream.close();
+    if (!written)
+        fail(file, "could not be written completely (" + reason(errno) +
+                       "); free some space or choose another folder");
+}
+
+}  // namespace
+
+std::string path_text(const fs::path& file) {
+    const std::u8string text = file.u8string();
+    return {text.begin(), text.end()};
+}
+
+std::vector<std::byte> read_file(const fs::path& file, std::uint64_t max_bytes) {
+    std::error_code error;
+    const fs::file_status status = fs::status(file, error);
+    if (status.type() == fs::file_type::not_found) fail(file, "there is no such file; check the path");
+    if (fs::is_directory(status)) fail(file, "is a folder; name a file in it");
+    if (error) fail(file, "cannot be reached (" + error.message() + "); check its permissions");
+    if (!fs::is_regular_file(status)) fail(file, "is not a regular file; copy its contents to one");
+    const std::uint64_t size = fs::file_size(file, error);
+    if (error) fail(file, "cannot be read (" + error.message() + ")");
+    Stream stream(file, "rb");
+    if (!stream) fail(file, "cannot be opened (" + reason(errno) + "); check its permissions");
+    std::vector<std::byte> bytes(static_cast<std::size_t>(std::min(size, max_bytes)));
+    bytes.resize(std::fread(bytes.data(), 1, bytes.size(), stream.get()));
+    if (std::ferror(stream.get()))
+        fail(file, "could not be read to its end (" + reason(errno) + "); check the disk");
+    return bytes;
+}
+
+void write_file(const fs::path& file, std::span<const std::byte> bytes) {
+    std::error_code error;
+    if (file.filename().empty()) fail(file, "is not a file name; add one");
+    if (fs::is_directory(file, error)) fail(file, "is a folder; name a file in it");
+    const fs::path temporary = temporary_name(file);
+    Leftover leftover(temporary);
+    write_all(file, temporary, bytes);
+    fs::rename(temporary, file, error);
+    if (error) fail(file, "cannot be replaced (" + error.message() + "); choose another name");
+    leftover.keep();
+}
+
+}  // namespace patina

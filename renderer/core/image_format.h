@@ -1,0 +1,28 @@
+// What kind of picture some bytes are and what their header promises, told from the bytes alone. Decodes no
+// pixels and knows no file: it stands before the decoders, so that nothing is allocated on the word of a
+// broken header.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace patina {
+
+enum class ImageFormat : std::uint8_t { Unknown, Png, Jpeg, Tiff, Targa, Bmp, OpenExr, Hdr };
+
+/// From the first bytes; targa, which has no magic number, from a header that makes sense.
+ImageFormat image_format_of(std::span<const std::byte> bytes);
+/// From a file's extension (with its dot, any case).
+ImageFormat image_format_of_extension(std::string_view extension);
+
+/// "png", "jpeg", "tiff", "targa", "bmp", "openexr", "hdr"; "" where unknown.
+std::string_view image_format_id(ImageFormat format);
+
+/// What is wrong with the bytes as a whole, as far as the format's structure tells without decoding; empty
+/// where nothing.
+std::string image_structure_problem(ImageFormat format, std::span<const std::byte> bytes);
+
+}  // namespace patina
