@@ -7,10 +7,11 @@
 
 namespace patina {
 
-/// OBJ, PLY, OFF, STL. Normals and texture coordinates per corner kept, polygons triangulated, missing normals computed
-/// (angle-weighted, creases above 60°), missing uvs projected (noted), degenerate and duplicate faces dropped (counted),
-/// non-manifold input kept. Centred and scaled to the unit sphere. No tangents yet.
-/// Throws std::runtime_error naming the file and the reason (missing, truncated, no faces, zero area, too large).
+/// OBJ, PLY, OFF, STL. Normals and texture coordinates per corner kept, polygons triangulated, missing
+/// normals computed (angle-weighted, creases above 60°), missing uvs projected (noted), degenerate and
+/// duplicate faces dropped (counted), non-manifold input kept. Centred and scaled to the unit sphere. No
+/// tangents yet. Throws std::runtime_error naming the file and the reason (missing, truncated, no faces, zero
+/// area, too large).
 Mesh load_mesh(const std::filesystem::path& file);
 
 }  // namespace patina
