@@ -1,20 +1,21 @@
 // Image-based light, baked: from an environment to prefiltered GGX levels, irradiance and the BRDF table.
 // Pure functions; know no GL, no file, no thread.
 //
-// A level of roughness r holds, for each direction N, ∫ L(l) K(N·l) dl with the kernel D(h)·(N·l) at N = V = R, normalised
-// to 1 (Karis 2013), alpha = r². Irradiance holds E(N)/π. Cube faces follow OpenGL's order and orientation.
+// A level of roughness r holds, for each direction N, ∫ L(l) K(N·l) dl with the kernel D(h)·(N·l) at N = V =
+// R, normalised to 1 (Karis 2013), alpha = r². Irradiance holds E(N)/π. Cube faces follow OpenGL's order and
+// orientation.
 #pragma once
 
 #include "renderer/core/environment.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <functional>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 namespace patina {
 
@@ -26,9 +27,10 @@ void serial_for(int count, const std::function<void(int)>& body);
 /// Six faces of size × size texels: +X −X +Y −Y +Z −Z, each row 0 first as glTexImage2D takes it.
 struct CubeMap {
     int size = 0;
-    std::vector<glm::vec3> texels;         ///< 6 · size · size
+    std::vector<glm::vec3> texels;  ///< 6 · size · size
 };
-/// Unit direction through the centre of a texel, and the exact solid angle of a texel (sums to 4π over the cube).
+/// Unit direction through the centre of a texel, and the exact solid angle of a texel (sums to 4π over the
+/// cube).
 glm::vec3 cube_texel_direction(int size, int face, int x, int y);
 double cube_texel_solid_angle(int size, int x, int y);
 
@@ -39,24 +41,28 @@ struct PrefilteredLevel {
 
 /// A compact bright source taken out of the map, shaded analytically instead.
 struct ExtractedLight {
-    glm::vec3 direction{0.0f, 1.0f, 0.0f};    ///< unit, towards the light, in the environment's frame
-    glm::vec3 irradiance{0.0f};               ///< on a surface that faces it
+    glm::vec3 direction{0.0f, 1.0f, 0.0f};  ///< unit, towards the light, in the environment's frame
+    glm::vec3 irradiance{0.0f};             ///< on a surface that faces it
     float angular_radius_rad = 0.0f;
 };
 
 struct BakedEnvironment {
-    std::vector<PrefilteredLevel> levels;     ///< ascending roughness, in the source's radiance units
-    CubeMap irradiance;                       ///< E/π
-    std::vector<ExtractedLight> lights;       ///< empty where none was taken out
+    std::vector<PrefilteredLevel> levels;  ///< ascending roughness, in the source's radiance units
+    CubeMap irradiance;                    ///< E/π
+    std::vector<ExtractedLight> lights;    ///< empty where none was taken out
     std::vector<std::string> notes;
 };
 
 /// The roughness values the renderer interpolates between: geometric from 0.1 to 1.
 std::vector<float> standard_roughness_levels();
 
+/// Part of the cache key: raised whenever bake_environment's output changes.
+inline constexpr int kBakerVersion = 1;
+
 struct BakeSettings {
-    std::vector<float> roughness = standard_roughness_levels();  ///< ascending, each in 0…1; exactly these are baked
-    int max_face_size = 256;                  ///< no level is larger; smooth levels are smaller
+    std::vector<float> roughness =
+        standard_roughness_levels();  ///< ascending, each in 0…1; exactly these are baked
+    int max_face_size = 256;          ///< no level is larger; smooth levels are smaller
     bool operator==(const BakeSettings&) const = default;
 };
 
@@ -67,7 +73,8 @@ struct BakeControl {
     std::stop_token stop;
 };
 
-/// nullopt only when stopped. Precondition: environment not empty. Same input, same bits, whatever parallel_for does.
+/// nullopt only when stopped. Precondition: environment not empty. Same input, same bits, whatever
+/// parallel_for does.
 std::optional<BakedEnvironment> bake_environment(const Environment& environment, const BakeSettings& settings,
                                                  const BakeControl& control);
 
