@@ -4,13 +4,27 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <cmath>
+#include <utility>
 
 namespace patina {
 namespace {
 
 constexpr int kLevelCount = 16;
 constexpr int kSamples = 256;
+
+/// Milliseconds since the last lap.
+class StopWatch {
+public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        return std::chrono::duration<double, std::milli>(now - std::exchange(last_, now)).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
 
 /// Smooth levels need fewer texels: bilinear reconstruction then errs less than the levels themselves.
 int face_size(float roughness, int largest) {
@@ -35,10 +49,12 @@ std::vector<float> standard_roughness_levels() {
 std::optional<BakedEnvironment> bake_environment(const Environment& environment, const BakeSettings& settings,
                                                  const BakeControl& control) {
     assert(environment.width > 0 && environment.height > 0);
+    StopWatch watch;
     int source_size = 16;
     while (source_size < environment.width / 4 && source_size < 1024) source_size *= 2;
     const CubePyramid source(environment, source_size, control.parallel_for);
     BakedEnvironment baked;
+    baked.timings.transform_ms = watch.lap();
     const float steps = float(settings.roughness.size() + 1);
     for (const float roughness : settings.roughness) {
         if (control.stop.stop_requested()) return std::nullopt;
@@ -47,9 +63,11 @@ std::optional<BakedEnvironment> bake_environment(const Environment& environment,
             {roughness, prefilter_by_sampling(source, roughness, kSamples, size, control)});
         control.progress(float(baked.levels.size()) / steps);
     }
+    baked.timings.levels_ms = watch.lap();
     // At roughness 1 D is constant and the kernel is NoL: that level is E/π.
     baked.irradiance =
         prefilter_by_sampling(source, 1.0f, 4 * kSamples, face_size(1.0f, settings.max_face_size), control);
+    baked.timings.irradiance_ms = watch.lap();
     if (control.stop.stop_requested()) return std::nullopt;
     control.progress(1.0f);
     return baked;

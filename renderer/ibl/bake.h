@@ -46,11 +46,20 @@ struct ExtractedLight {
     float angular_radius_rad = 0.0f;
 };
 
+/// Wall-clock milliseconds of a bake's stages; 0 for what was not needed. Not part of the result's identity.
+struct BakeTimings {
+    double transform_ms = 0.0;  ///< what all levels share
+    double levels_ms = 0.0;
+    double irradiance_ms = 0.0;
+    double lights_ms = 0.0;
+};
+
 struct BakedEnvironment {
     std::vector<PrefilteredLevel> levels;  ///< ascending roughness, in the source's radiance units
     CubeMap irradiance;                    ///< E/π
     std::vector<ExtractedLight> lights;    ///< empty where none was taken out
     std::vector<std::string> notes;
+    BakeTimings timings;  ///< not stored by the cache
 };
 
 /// The roughness values the renderer interpolates between: geometric from 0.1 to 1.
