@@ -37,7 +37,7 @@ struct ScalarSlot {
 
 /// Tangent-space normal map; value scales the x and y of the decoded normal (glTF normalTexture.scale).
 struct NormalSlot {
-    float value = 1.0f;  ///< 0…2, 0 is flat
+    float value = 1.0f;  ///< 0…4, 0 is flat
     std::string map;
     NormalConvention convention = NormalConvention::OpenGl;
     bool operator==(const NormalSlot&) const = default;
