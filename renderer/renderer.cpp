@@ -1,1 +1,278 @@
 #include "renderer/renderer.h"
+
+#include "renderer/features.h"
+#include "renderer/gl/environment.h"
+#include "renderer/gl/mesh.h"
+#include "renderer/gl/program.h"
+#include "renderer/gl/target.h"
+#include "renderer/gl/texture.h"
+#include "renderer/tonemap.h"
+#include "renderer/uniforms.h"
+
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace patina {
+
+namespace {
+
+gl::Texture make_brdf_texture() {
+    const gl::KeepTextureBindings keep;
+    const BrdfTable table = bake_brdf_table();
+    std::vector<std::uint16_t> texels;
+    texels.reserve(2 * table.ab.size());
+    for (const glm::vec2& ab : table.ab)
+        for (int c = 0; c < 2; ++c)
+            texels.push_back(std::uint16_t(std::clamp(ab[c], 0.0f, 1.0f) * 65535.0f + 0.5f));
+    gl::Texture texture = gl::Texture::make();
+    glBindTexture(GL_TEXTURE_2D, texture.name());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG16, table.size, table.size, 0, GL_RG, GL_UNSIGNED_SHORT,
+                 texels.data());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    return texture;
+}
+
+/// No light at all, for scenes that have none yet.
+EnvironmentHandle make_darkness() {
+    const CubeMap black{1, std::vector<glm::vec3>(6, glm::vec3(0.0f))};
+    BakedEnvironment baked;
+    baked.levels = {{1.0f, black}};
+    baked.irradiance = black;
+    Environment environment;
+    environment.width = environment.height = 1;
+    environment.radiance = {glm::vec3(0.0f)};
+    return std::make_shared<GpuEnvironment>(
+        gl::make_environment_textures(make_panorama_levels(environment), baked));
+}
+
+LightLayout layout_of(const GpuEnvironment& environment) {
+    return {environment.panorama_scale,
+            environment.levels_scale,
+            environment.irradiance_scale,
+            environment.texels_per_radian,
+            environment.layers,
+            environment.roughness,
+            environment.lights};
+}
+
+Features features_for(const Scene& scene, const GpuEnvironment& environment) {
+    std::bitset<kMapSlots> bound;
+    for (std::size_t i = 0; i < scene.maps.size(); ++i) bound[i] = scene.maps[i] != nullptr;
+    const LightTraits light{environment.roughness.front(), !environment.lights.empty()};
+    return features_of(scene.material, bound, scene.view, light);
+}
+
+template <class Block>
+void upload_block(const gl::Buffer& buffer, GLuint slot, const Block& block) {
+    glBindBuffer(GL_UNIFORM_BUFFER, buffer.name());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
+    glBindBufferBase(GL_UNIFORM_BUFFER, slot, buffer.name());
+}
+
+void bind_texture(GLuint unit, GLenum kind, const gl::Texture& texture) {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindSampler(unit, 0);
+    glBindTexture(kind, texture.name());
+}
+
+void set_switches() {
+    for (const GLenum off : {GL_BLEND, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_FRAMEBUFFER_SRGB,
+                             GL_RASTERIZER_DISCARD, GL_COLOR_LOGIC_OP, GL_SAMPLE_ALPHA_TO_COVERAGE})
+        glDisable(off);
+    for (const GLenum on : {GL_DEPTH_TEST, GL_MULTISAMPLE, GL_TEXTURE_CUBE_MAP_SEAMLESS}) glEnable(on);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+}  // namespace
+
+struct Renderer::State {
+    std::map<Features, gl::Program> surfaces;
+    std::array<gl::Program, 2> backgrounds;               ///< sharp, blurred
+    std::map<std::pair<int, int>, gl::Program> displays;  ///< by samples and tone mapper
+    gl::VertexArray nothing = gl::VertexArray::make();    ///< for triangles made in the shader
+    gl::Buffer frame_rows = gl::Buffer::make();
+    gl::Buffer material_rows = gl::Buffer::make();
+    gl::Texture brdf = make_brdf_texture();
+    EnvironmentHandle darkness = make_darkness();
+
+    const gl::Program& surface(Features features);
+    const gl::Program& background(Background background);
+    const gl::Program& display(int samples, Tonemap tonemap);
+    void bind_light(const GpuEnvironment& environment) const;
+    void draw_radiance(const Scene& scene, const GpuEnvironment& environment, RenderTarget& target);
+    void draw_display(const View& view, const RenderTarget& target);
+};
+
+const gl::Program& Renderer::State::surface(Features features) {
+    gl::Program& program = surfaces[features];
+    if (!program)
+        program = gl::make_program(gl::embedded_shader("mesh.vert.glsl"),
+                                   gl::embedded_shader("mesh.frag.glsl"), defines_of(features));
+    return program;
+}
+
+const gl::Program& Renderer::State::background(Background background) {
+    const bool blurred = background == Background::Blurred;
+    gl::Program& program = backgrounds[blurred ? 1 : 0];
+    if (!program)
+        program = gl::make_program(
+            gl::embedded_shader("background.vert.glsl"), gl::embedded_shader("background.frag.glsl"),
+            blurred ? std::vector<std::string>{"HAS_BLUR"} : std::vector<std::string>{});
+    return program;
+}
+
+const gl::Program& Renderer::State::display(int samples, Tonemap tonemap) {
+    gl::Program& program = displays[{samples, int(tonemap)}];
+    if (program) return program;
+    std::vector<std::string> defines{"TONEMAP=" + std::to_string(int(tonemap))};
+    if (samples > 1) defines.push_back("SAMPLES=" + std::to_string(samples));
+    program = gl::make_program(gl::embedded_shader("display.vert.glsl"),
+                               gl::embedded_shader("display.frag.glsl"), defines);
+    return program;
+}
+
+void Renderer::State::bind_light(const GpuEnvironment& environment) const {
+    bind_texture(gl::kPanoramaUnit, GL_TEXTURE_2D, environment.panorama);
+    bind_texture(gl::kLevelsUnit, GL_TEXTURE_CUBE_MAP_ARRAY, environment.levels);
+    bind_texture(gl::kIrradianceUnit, GL_TEXTURE_CUBE_MAP, environment.irradiance);
+    bind_texture(gl::kBrdfUnit, GL_TEXTURE_2D, brdf);
+}
+
+void Renderer::State::draw_radiance(const Scene& scene, const GpuEnvironment& environment,
+                                    RenderTarget& target) {
+    glBindFramebuffer(GL_FRAMEBUFFER, target.radiance_framebuffer.name());
+    glViewport(0, 0, target.size.x, target.size.y);
+    set_switches();
+    const GLfloat empty[] = {0.0f, 0.0f, 0.0f, 0.0f};
+    const GLfloat far = 1.0f;
+    glClearBufferfv(GL_COLOR, 0, empty);
+    glClearBufferfv(GL_DEPTH, 0, &far);
+
+    const Features features = features_for(scene, environment);
+    const auto frame = make_frame_block(scene.camera, scene.view, target.size, layout_of(environment),
+                                        gl::largest_radiance(target));
+    upload_block(frame_rows, gl::kFrameSlot, frame);
+    upload_block(material_rows, gl::kMaterialSlot,
+                 make_material_block(scene.material, features, frame.camera_position.w));
+    bind_light(environment);
+    if (scene.mesh) {
+        for (std::size_t i = 0; i < scene.maps.size(); ++i)
+            if (scene.maps[i])
+                bind_texture(gl::kFirstMapUnit + GLuint(i), GL_TEXTURE_2D, scene.maps[i]->texture);
+        glUseProgram(surface(features).name());
+        gl::draw_mesh(*scene.mesh);
+    }
+    // After the mesh, at the far plane: only what the mesh leaves free is computed.
+    if (scene.view.background == Background::Plain || is_data_view(scene.view.debug)) return;
+    glDepthMask(GL_FALSE);
+    glUseProgram(background(scene.view.background).name());
+    glBindVertexArray(nothing.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Renderer::State::draw_display(const View& view, const RenderTarget& target) {
+    glBindFramebuffer(GL_FRAMEBUFFER, target.display_framebuffer.name());
+    glDisable(GL_DEPTH_TEST);
+    const gl::Program& program =
+        display(target.samples, is_data_view(view.debug) ? Tonemap::None : view.tonemap);
+    bind_texture(gl::kPictureUnit, target.radiance_kind(), target.radiance);
+    glUseProgram(program.name());
+    const glm::vec3 plain = glm::clamp(view.plain_color, 0.0f, 1.0f);
+    glUniform3f(glGetUniformLocation(program.name(), "plain"), plain.x, plain.y, plain.z);
+    glBindVertexArray(nothing.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glBindTexture(target.radiance_kind(), 0);
+}
+
+Renderer::Renderer() {
+    if (epoxy_gl_version() < 41 || !epoxy_is_desktop_gl())
+        throw std::runtime_error("This graphics driver offers no OpenGL 4.1: install a newer driver.");
+    state_ = std::make_unique<State>();
+}
+
+Renderer::~Renderer() = default;
+
+EnvironmentHandle Renderer::upload_environment(const Environment& environment,
+                                               const BakedEnvironment& baked) {
+    return upload_environment(make_panorama_levels(environment), baked);
+}
+
+EnvironmentHandle Renderer::upload_environment(const PanoramaLevels& panorama,
+                                               const BakedEnvironment& baked) {
+    return std::make_shared<GpuEnvironment>(gl::make_environment_textures(panorama, baked));
+}
+
+MeshHandle Renderer::upload_mesh(const Mesh& mesh) {
+    return std::make_shared<GpuMesh>(gl::make_mesh_buffers(mesh));
+}
+
+MapHandle Renderer::upload_map(const MapLevels& levels) {
+    gl::TextureWriter writer(levels.levels, levels.srgb);
+    while (!writer.step(levels.levels, std::size_t{1} << 26)) {
+    }
+    return std::make_shared<GpuMap>(writer.take());
+}
+
+MapHandle Renderer::upload_thumbnail(const Image& image) {
+    return std::make_shared<GpuMap>(gl::make_interface_texture(image));
+}
+
+std::uintptr_t Renderer::texture_of(const GpuMap& map) { return map.texture.name(); }
+
+TargetHandle Renderer::make_target(glm::ivec2 size_px, int samples, TargetPrecision precision) {
+    return std::make_shared<RenderTarget>(
+        gl::make_render_target(size_px, samples, precision == TargetPrecision::Full));
+}
+
+void Renderer::draw(const Scene& scene, RenderTarget& target) {
+    const gl::KeepDrawState keep;
+    const GpuEnvironment& environment = scene.environment ? *scene.environment : *state_->darkness;
+    Scene shown = scene;
+    if (!scene.environment) shown.view.background = Background::Plain;
+    target.plain = scene.view.plain_color;
+    state_->draw_radiance(shown, environment, target);
+    state_->draw_display(shown.view, target);
+}
+
+void Renderer::prepare(const Scene& scene) {
+    const gl::KeepDrawState keep;
+    state_->surface(features_for(scene, scene.environment ? *scene.environment : *state_->darkness));
+}
+
+std::uintptr_t Renderer::display_texture(const RenderTarget& target) { return target.display.name(); }
+glm::ivec2 Renderer::size_px(const RenderTarget& target) { return target.size; }
+Image Renderer::read_display(const RenderTarget& target) { return gl::read_display_pixels(target); }
+Image Renderer::read_radiance(const RenderTarget& target) { return gl::read_radiance_pixels(target); }
+
+struct MapUpload::State {
+    explicit State(MapLevels map) : levels(std::move(map)), writer(levels.levels, levels.srgb) {}
+    MapLevels levels;
+    gl::TextureWriter writer;
+};
+
+MapUpload::MapUpload(MapLevels levels) : state_(std::make_unique<State>(std::move(levels))) {}
+MapUpload::~MapUpload() = default;
+MapUpload::MapUpload(MapUpload&&) noexcept = default;
+MapUpload& MapUpload::operator=(MapUpload&&) noexcept = default;
+bool MapUpload::step(std::size_t byte_budget) {
+    return state_->writer.step(state_->levels.levels, byte_budget);
+}
+float MapUpload::fraction() const { return state_->writer.fraction(); }
+MapHandle MapUpload::finish() {
+    while (!step(std::size_t{1} << 26)) {
+    }
+    return std::make_shared<GpuMap>(state_->writer.take());
+}
+
+}  // namespace patina

@@ -11,7 +11,9 @@
 #include "renderer/core/image.h"
 #include "renderer/core/mesh.h"
 #include "renderer/core/view.h"
+#include "renderer/gl/panorama.h"
 #include "renderer/ibl/bake.h"
+#include "renderer/map_levels.h"
 
 #include <glm/vec2.hpp>
 
@@ -21,19 +23,6 @@
 #include <string>
 
 namespace patina {
-
-/// A map with its mip chain, ready to upload: made on a worker by make_map_levels, values as the shader
-/// samples them.
-struct MapLevels {
-    std::vector<Image> levels;  ///< [0] full size; U8 (1, 2, 3→4 channels), U16 or F32
-    bool srgb = false;          ///< sample through an sRGB texture format
-};
-enum class MapKind { Color, Data, Normal };
-/// Mipmaps filtered in linear light (Color with srgb), as numbers (Data), or renormalised (Normal). Pure; any
-/// size.
-MapLevels make_map_levels(const Image& image, MapKind kind, ColorSpace color_space);
-/// A checkerboard that cannot be mistaken for a picture: stands in for a missing or broken map.
-Image make_placeholder_map();
 
 struct GpuEnvironment;
 struct GpuMesh;
@@ -53,9 +42,31 @@ struct Scene {
     View view;
 };
 
-/// Where a picture is drawn: linear radiance (half float) and the display picture (8-bit sRGB-encoded).
+/// Where a picture is drawn: linear radiance and the display picture (8-bit sRGB-encoded).
 struct RenderTarget;
 using TargetHandle = std::shared_ptr<RenderTarget>;
+/// How radiance is kept: half floats end at 65504 and are what a screen needs, full floats are for measuring
+/// and saving.
+enum class TargetPrecision { Half, Full };
+
+/// A large map on its way to the GPU, a portion a frame, so that the window does not stall.
+class MapUpload {
+public:
+    explicit MapUpload(MapLevels levels);
+    ~MapUpload();
+    MapUpload(MapUpload&&) noexcept;
+    MapUpload& operator=(MapUpload&&) noexcept;
+
+    /// Copies about byte_budget bytes; true when all is there.
+    bool step(std::size_t byte_budget);
+    float fraction() const;  ///< 0…1
+    /// Copies what is left and hands the map over; call once.
+    MapHandle finish();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 class Renderer {
 public:
@@ -66,12 +77,20 @@ public:
     Renderer& operator=(const Renderer&) = delete;
 
     EnvironmentHandle upload_environment(const Environment& environment, const BakedEnvironment& baked);
+    /// The same with the panorama's mip chain made beforehand, on a worker: what is left takes milliseconds.
+    EnvironmentHandle upload_environment(const PanoramaLevels& panorama, const BakedEnvironment& baked);
     MeshHandle upload_mesh(const Mesh& mesh);
-    MapHandle upload_map(const MapLevels& levels);
+    MapHandle upload_map(const MapLevels& levels);  ///< all at once; MapUpload spreads it over frames
 
     /// samples: MSAA, clamped to what the driver offers; size ≥ 1×1.
-    TargetHandle make_target(glm::ivec2 size_px, int samples = 4);
+    TargetHandle make_target(glm::ivec2 size_px, int samples = 4,
+                             TargetPrecision precision = TargetPrecision::Half);
+    /// Without an environment only emission and a plain background are seen, without a mesh only the
+    /// background. The plain background is shown as it is: neither exposure nor tone mapping touch it.
     void draw(const Scene& scene, RenderTarget& target);
+
+    /// Compiles what is not compiled yet: the first picture of a new kind of material then does not stutter.
+    void prepare(const Scene& scene);
 
     /// GL texture name of the 8-bit display picture (for the interface), valid while the target lives. Origin
     /// bottom-left.

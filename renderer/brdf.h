@@ -1,0 +1,22 @@
+// The reflection model of the shaders, compiled as C++: the same text, so the two cannot drift apart.
+#pragma once
+
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace patina::brdf {
+
+using glm::clamp;
+using glm::max;
+using glm::mix;
+using glm::vec2;
+using glm::vec3;
+using std::sqrt;
+
+#define PATINA_FN inline
+#include "renderer/shaders/brdf.glsl"
+#undef PATINA_FN
+
+}  // namespace patina::brdf

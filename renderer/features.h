@@ -1,0 +1,52 @@
+// Which shader permutation a picture needs: only what the material, the light and the view really use. Pure.
+#pragma once
+
+#include "materials/material.h"
+#include "renderer/core/view.h"
+
+#include <bitset>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// A set of Feature bits.
+using Features = std::uint32_t;
+
+enum class Feature : Features {
+    AlbedoMap = 1u << 0,
+    RoughnessMap = 1u << 1,
+    MetallicMap = 1u << 2,
+    AoMap = 1u << 3,
+    NormalMap = 1u << 4,
+    EmissionMap = 1u << 5,  ///< implies Emission
+    Emission = 1u << 6,
+    Sharp = 1u << 7,   ///< roughness may be below the sharpest prefiltered level
+    Lights = 1u << 8,  ///< sources were taken out of the environment
+    Course = 1u << 9,  ///< the lecture's formulas
+    Debug = 1u << 10,  ///< one ingredient instead of the picture
+};
+
+inline bool has(Features features, Feature feature) { return (features & Features(feature)) != 0; }
+
+/// What a permutation must know of the light.
+struct LightTraits {
+    float sharpest_roughness = 0.0f;  ///< of the prefiltered levels
+    bool has_lights = false;
+};
+
+/// bound: which slots have a map on the GPU. A map whose value is 0 is not read.
+Features features_of(const Material& material, const std::bitset<kMapSlots>& bound, const View& view,
+                     const LightTraits& light);
+
+/// Every value features_of can return.
+std::vector<Features> all_features();
+
+/// "HAS_ALBEDO_MAP", …
+std::vector<std::string> defines_of(Features features);
+
+/// Views that show stored numbers rather than light: no exposure, no tone mapping.
+bool is_data_view(DebugView view);
+
+}  // namespace patina

@@ -1,0 +1,172 @@
+#include "renderer/gl/program.h"
+
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+#include <vector>
+
+namespace patina::embedded {
+std::span<const unsigned char> shaders(std::string_view file_name);
+}
+
+namespace patina::gl {
+
+namespace {
+
+constexpr std::string_view kInclude = "#include \"";
+
+/// One stage's text: the files it is made of, in the order of their source string numbers, and the whole.
+struct Expansion {
+    std::vector<std::string> files;
+    std::string text;
+};
+
+void expand(const ShaderText& shader, Expansion& out) {
+    const std::size_t number = out.files.size();
+    out.files.push_back(shader.name);
+    const auto line_directive = [&](int line) {
+        out.text += "#line " + std::to_string(line) + " " + std::to_string(number) + "\n";
+    };
+    line_directive(1);
+    int line = 1;
+    for (std::size_t at = 0; at < shader.text.size(); ++line) {
+        const std::size_t end = std::min(shader.text.find('\n', at), shader.text.size());
+        const std::string_view row(shader.text.data() + at, end - at);
+        at = end + 1;
+        if (row.substr(0, kInclude.size()) != kInclude) {
+            out.text.append(row).append("\n");
+            continue;
+        }
+        std::string_view path = row.substr(kInclude.size());
+        path = path.substr(0, path.find('"'));
+        const std::string name(path);
+        if (std::find(out.files.begin(), out.files.end(), name) == out.files.end())
+            expand(embedded_shader(name), out);
+        line_directive(line + 1);
+    }
+}
+
+/// The driver's log with source string numbers replaced by file names: "1:23(5): …" or "1(23) : …" becomes
+/// "brdf.glsl:23…". Only the first line that names a place is kept: the others follow from it.
+std::string readable_log(const std::string& log, const std::vector<std::string>& files) {
+    std::string first;
+    for (std::size_t at = 0; at < log.size();) {
+        const std::size_t end = std::min(log.find('\n', at), log.size());
+        std::string line = log.substr(at, end - at);
+        at = end + 1;
+        if (line.rfind("ERROR: ", 0) == 0) line.erase(0, 7);
+        std::size_t digits = 0;
+        while (digits < line.size() && std::isdigit(static_cast<unsigned char>(line[digits]))) ++digits;
+        if (first.empty()) first = line;
+        if (digits == 0 || digits > 4 || digits + 1 >= line.size()) continue;
+        if (line[digits] != ':' && line[digits] != '(') continue;
+        const auto file = std::size_t(std::stoul(line.substr(0, digits)));
+        return (file < files.size() ? files[file] : "?") + ":" + line.substr(digits + 1);
+    }
+    return first;
+}
+
+std::string define_lines(std::span<const std::string> defines) {
+    std::string text;
+    for (std::string define : defines) {
+        const std::size_t equals = define.find('=');
+        if (equals == std::string::npos)
+            define += " 1";
+        else
+            define[equals] = ' ';
+        text += "#define " + define + "\n";
+    }
+    return text;
+}
+
+struct Stage {
+    explicit Stage(GLenum kind) : name(glCreateShader(kind)) {}
+    ~Stage() { glDeleteShader(name); }
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+    GLuint name;
+};
+
+void compile(const Stage& stage, const ShaderText& shader, std::span<const std::string> defines) {
+    Expansion expansion;
+    expand(shader, expansion);
+    const std::string text =
+        "#version 410 core\n#define PATINA_FN\n" + define_lines(defines) + expansion.text;
+    const char* pointer = text.c_str();
+    glShaderSource(stage.name, 1, &pointer, nullptr);
+    glCompileShader(stage.name);
+    GLint done = GL_FALSE;
+    glGetShaderiv(stage.name, GL_COMPILE_STATUS, &done);
+    if (done == GL_TRUE) return;
+    std::string log(4096, '\0');
+    GLsizei length = 0;
+    glGetShaderInfoLog(stage.name, GLsizei(log.size()), &length, log.data());
+    log.resize(std::size_t(std::max(length, 0)));
+    throw std::runtime_error("The graphics driver refuses the shader " + shader.name + ": " +
+                             readable_log(log, expansion.files));
+}
+
+void bind_interface(GLuint program) {
+    static constexpr std::pair<const char*, GLuint> kSamplers[] = {
+        {"panorama_map", kPanoramaUnit},     {"level_maps", kLevelsUnit},
+        {"irradiance_map", kIrradianceUnit}, {"brdf_table", kBrdfUnit},
+        {"albedo_map", kFirstMapUnit + 0},   {"roughness_map", kFirstMapUnit + 1},
+        {"metallic_map", kFirstMapUnit + 2}, {"ao_map", kFirstMapUnit + 3},
+        {"normal_map", kFirstMapUnit + 4},   {"emission_map", kFirstMapUnit + 5},
+        {"picture", kPictureUnit},
+    };
+    GLint previous = 0;
+    glGetIntegerv(GL_CURRENT_PROGRAM, &previous);
+    glUseProgram(program);
+    for (const auto& [name, unit] : kSamplers) {
+        const GLint location = glGetUniformLocation(program, name);
+        if (location >= 0) glUniform1i(location, GLint(unit));
+    }
+    glUseProgram(GLuint(previous));
+    static constexpr std::pair<const char*, GLuint> kBlocks[] = {{"FrameBlock", kFrameSlot},
+                                                                 {"MaterialBlock", kMaterialSlot}};
+    for (const auto& [name, slot] : kBlocks) {
+        const GLuint index = glGetUniformBlockIndex(program, name);
+        if (index != GL_INVALID_INDEX) glUniformBlockBinding(program, index, slot);
+    }
+}
+
+}  // namespace
+
+ShaderText embedded_shader(std::string_view name) {
+    const auto bytes = embedded::shaders(name);
+    if (bytes.empty())
+        throw std::runtime_error("The shader " + std::string(name) + " is not part of this build.");
+    return {std::string(name), std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size())};
+}
+
+Program make_program(const ShaderText& vertex, const ShaderText& fragment,
+                     std::span<const std::string> defines) {
+    const Stage vertex_stage(GL_VERTEX_SHADER);
+    const Stage fragment_stage(GL_FRAGMENT_SHADER);
+    compile(vertex_stage, vertex, defines);
+    compile(fragment_stage, fragment, defines);
+    Program program = Program::make();
+    glAttachShader(program.name(), vertex_stage.name);
+    glAttachShader(program.name(), fragment_stage.name);
+    static constexpr const char* kAttributes[] = {"vertex_position", "vertex_normal", "vertex_uv",
+                                                  "vertex_tangent"};
+    for (GLuint i = 0; i < 4; ++i) glBindAttribLocation(program.name(), i, kAttributes[i]);
+    glLinkProgram(program.name());
+    GLint done = GL_FALSE;
+    glGetProgramiv(program.name(), GL_LINK_STATUS, &done);
+    if (done != GL_TRUE) {
+        std::string log(4096, '\0');
+        GLsizei length = 0;
+        glGetProgramInfoLog(program.name(), GLsizei(log.size()), &length, log.data());
+        log.resize(std::size_t(std::max(length, 0)));
+        throw std::runtime_error("The graphics driver cannot link " + vertex.name + " with " + fragment.name +
+                                 ": " + log.substr(0, log.find('\n')));
+    }
+    glDetachShader(program.name(), vertex_stage.name);
+    glDetachShader(program.name(), fragment_stage.name);
+    bind_interface(program.name());
+    return program;
+}
+
+}  // namespace patina::gl

@@ -1,0 +1,40 @@
+// From embedded .glsl files to linked programs: #include, the version line and the permutation's defines.
+#pragma once
+
+#include "renderer/gl/handles.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace patina::gl {
+
+struct ShaderText {
+    std::string name;  ///< for messages
+    std::string text;  ///< without #version; may #include "file.glsl"
+};
+
+/// A file of renderer/shaders as the build embedded it. Throws std::runtime_error if there is none of that
+/// name.
+ShaderText embedded_shader(std::string_view name);
+
+/// Compiles and links; defines become `#define NAME 1` (or `NAME VALUE` from "NAME=VALUE"). Samplers and
+/// uniform blocks are bound by the tables in program.cpp. Throws std::runtime_error: one sentence with file,
+/// line and the driver's words.
+Program make_program(const ShaderText& vertex, const ShaderText& fragment,
+                     std::span<const std::string> defines = {});
+
+/// Texture units, by sampler name in the shaders.
+enum Unit : GLuint {
+    kPanoramaUnit,
+    kLevelsUnit,
+    kIrradianceUnit,
+    kBrdfUnit,
+    kFirstMapUnit,  ///< six of them, in MapSlot's order
+    kUnits = kFirstMapUnit + 6,
+    kPictureUnit = kPanoramaUnit,  ///< what the display pass reads
+};
+inline constexpr GLuint kFrameSlot = 0;     ///< uniform buffer binding of FrameBlock
+inline constexpr GLuint kMaterialSlot = 1;  ///< and of MaterialBlock
+
+}  // namespace patina::gl

@@ -1,0 +1,219 @@
+#include "renderer/gl/target.h"
+
+#include "renderer/gl/texture.h"
+
+#include <glm/common.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace patina::gl {
+
+namespace {
+
+int offered_samples(int wanted) {
+    GLint color = 1;
+    GLint depth = 1;
+    GLint all = 1;
+    glGetIntegerv(GL_MAX_COLOR_TEXTURE_SAMPLES, &color);
+    glGetIntegerv(GL_MAX_DEPTH_TEXTURE_SAMPLES, &depth);
+    glGetIntegerv(GL_MAX_SAMPLES, &all);
+    const int most = std::max(std::min({color, depth, all}), 1);
+    int samples = 1;
+    while (2 * samples <= std::min(wanted, most)) samples *= 2;
+    return samples;
+}
+
+void require_complete(const RenderTarget& target) {
+    const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+    if (status == GL_FRAMEBUFFER_COMPLETE) return;
+    throw std::runtime_error("The graphics driver offers no picture of " + std::to_string(target.size.x) +
+                             "×" + std::to_string(target.size.y) + " with " + std::to_string(target.samples) +
+                             " samples to draw into: choose a smaller size.");
+}
+
+void plain_filter() {
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+}
+
+void make_radiance(RenderTarget& target) {
+    const GLenum format = target.full_float ? GL_RGBA32F : GL_RGBA16F;
+    target.radiance = Texture::make();
+    target.depth = Renderbuffer::make();
+    target.radiance_framebuffer = Framebuffer::make();
+    glBindTexture(target.radiance_kind(), target.radiance.name());
+    glBindRenderbuffer(GL_RENDERBUFFER, target.depth.name());
+    if (target.samples > 1) {
+        glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, target.samples, format, target.size.x,
+                                target.size.y, GL_TRUE);
+        glRenderbufferStorageMultisample(GL_RENDERBUFFER, target.samples, GL_DEPTH_COMPONENT24, target.size.x,
+                                         target.size.y);
+    } else {
+        glTexImage2D(GL_TEXTURE_2D, 0, GLint(format), target.size.x, target.size.y, 0, GL_RGBA, GL_FLOAT,
+                     nullptr);
+        plain_filter();
+        glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, target.size.x, target.size.y);
+    }
+    glBindTexture(target.radiance_kind(), 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, target.radiance_framebuffer.name());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, target.radiance_kind(),
+                           target.radiance.name(), 0);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target.depth.name());
+    require_complete(target);
+}
+
+void make_display(RenderTarget& target) {
+    target.display = Texture::make();
+    target.display_framebuffer = Framebuffer::make();
+    glBindTexture(GL_TEXTURE_2D, target.display.name());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, target.size.x, target.size.y, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                 nullptr);
+    plain_filter();
+    glBindFramebuffer(GL_FRAMEBUFFER, target.display_framebuffer.name());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.display.name(), 0);
+    require_complete(target);
+}
+
+/// Sets what glReadPixels depends on and puts it back.
+class KeepReadState {
+public:
+    KeepReadState() {
+        glGetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &buffer_);
+        glGetIntegerv(GL_PACK_ALIGNMENT, &alignment_);
+        glGetIntegerv(GL_PACK_ROW_LENGTH, &row_length_);
+        glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+        glPixelStorei(GL_PACK_ALIGNMENT, 1);
+        glPixelStorei(GL_PACK_ROW_LENGTH, 0);
+    }
+    ~KeepReadState() {
+        glBindBuffer(GL_PIXEL_PACK_BUFFER, GLuint(buffer_));
+        glPixelStorei(GL_PACK_ALIGNMENT, alignment_);
+        glPixelStorei(GL_PACK_ROW_LENGTH, row_length_);
+    }
+    KeepReadState(const KeepReadState&) = delete;
+    KeepReadState& operator=(const KeepReadState&) = delete;
+
+private:
+    GLint buffer_ = 0, alignment_ = 4, row_length_ = 0;
+};
+
+/// Radiance and coverage of the whole picture, bottom row first; multisampled ones are averaged by the
+/// driver.
+std::vector<glm::vec4> read_resolved(const RenderTarget& target) {
+    RenderTarget single;
+    GLuint source = target.radiance_framebuffer.name();
+    if (target.samples > 1) {
+        single.size = target.size;
+        single.full_float = true;
+        make_radiance(single);
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, source);
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, single.radiance_framebuffer.name());
+        glBlitFramebuffer(0, 0, target.size.x, target.size.y, 0, 0, target.size.x, target.size.y,
+                          GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        source = single.radiance_framebuffer.name();
+    }
+    std::vector<glm::vec4> pixels(std::size_t(target.size.x) * target.size.y);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, source);
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    glReadPixels(0, 0, target.size.x, target.size.y, GL_RGBA, GL_FLOAT, pixels.data());
+    return pixels;
+}
+
+}  // namespace
+
+RenderTarget make_render_target(glm::ivec2 size, int samples, bool full_float) {
+    const KeepDrawState keep;
+    const KeepTextureBindings keep_textures;
+    GLint limit = 1024;
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &limit);
+    RenderTarget target;
+    target.size = glm::clamp(size, glm::ivec2(1), glm::ivec2(limit));
+    target.samples = offered_samples(samples);
+    target.full_float = full_float;
+    make_radiance(target);
+    make_display(target);
+    glBindRenderbuffer(GL_RENDERBUFFER, 0);
+    check_memory("the picture");
+    return target;
+}
+
+float largest_radiance(const RenderTarget& target) {
+    return target.full_float ? std::numeric_limits<float>::max() : 65504.0f;
+}
+
+Image read_display_pixels(const RenderTarget& target) {
+    const KeepDrawState keep;
+    const KeepReadState keep_read;
+    Image image = make_image(target.size.x, target.size.y, 3, PixelType::U8);
+    const std::size_t row = std::size_t(target.size.x) * 3;
+    std::vector<std::byte> pixels(image.bytes.size());
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, target.display_framebuffer.name());
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    glReadPixels(0, 0, target.size.x, target.size.y, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
+    for (int y = 0; y < target.size.y; ++y)
+        std::memcpy(image.bytes.data() + y * row, pixels.data() + (target.size.y - 1 - y) * row, row);
+    return image;
+}
+
+Image read_radiance_pixels(const RenderTarget& target) {
+    const KeepDrawState keep;
+    const KeepReadState keep_read;
+    const KeepTextureBindings keep_textures;
+    const std::vector<glm::vec4> pixels = read_resolved(target);
+    Image image = make_image(target.size.x, target.size.y, 3, PixelType::F32);
+    auto* out = reinterpret_cast<float*>(image.bytes.data());
+    for (int y = 0; y < target.size.y; ++y) {
+        const glm::vec4* row = &pixels[std::size_t(target.size.y - 1 - y) * target.size.x];
+        for (int x = 0; x < target.size.x; ++x, out += 3) {
+            const glm::vec3 color = glm::vec3(row[x]) + (1.0f - row[x].w) * target.plain;
+            std::memcpy(out, &color, sizeof color);
+        }
+    }
+    return image;
+}
+
+KeepDrawState::KeepDrawState() {
+    for (int i = 0; i < kSwitchCount; ++i) switches_[i] = glIsEnabled(kSwitches[i]);
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_framebuffer_);
+    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_framebuffer_);
+    glGetIntegerv(GL_CURRENT_PROGRAM, &program_);
+    glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &vertex_array_);
+    glGetIntegerv(GL_ACTIVE_TEXTURE, &active_texture_);
+    glGetIntegerv(GL_UNIFORM_BUFFER_BINDING, &uniform_buffer_);
+    glGetIntegerv(GL_DEPTH_FUNC, &depth_function_);
+    glGetIntegerv(GL_POLYGON_MODE, polygon_mode_);
+    glGetIntegerv(GL_VIEWPORT, viewport_);
+    glGetBooleanv(GL_DEPTH_WRITEMASK, &depth_mask_);
+    glGetBooleanv(GL_COLOR_WRITEMASK, color_mask_);
+}
+
+KeepDrawState::~KeepDrawState() {
+    for (int i = 0; i < kSwitchCount; ++i) {
+        if (switches_[i])
+            glEnable(kSwitches[i]);
+        else
+            glDisable(kSwitches[i]);
+    }
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, GLuint(draw_framebuffer_));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, GLuint(read_framebuffer_));
+    glUseProgram(GLuint(program_));
+    glBindVertexArray(GLuint(vertex_array_));
+    glActiveTexture(GLenum(active_texture_));
+    glBindBuffer(GL_UNIFORM_BUFFER, GLuint(uniform_buffer_));
+    glDepthFunc(GLenum(depth_function_));
+    glPolygonMode(GL_FRONT_AND_BACK, GLenum(polygon_mode_[0]));
+    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
+    glDepthMask(depth_mask_);
+    glColorMask(color_mask_[0], color_mask_[1], color_mask_[2], color_mask_[3]);
+}
+
+}  // namespace patina::gl

@@ -1,0 +1,58 @@
+// Pictures on the GPU: formats, mip chains uploaded a bit at a time, and what must be put back afterwards.
+#pragma once
+
+#include "renderer/core/image.h"
+#include "renderer/gl/handles.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace patina {
+
+struct GpuMap {
+    gl::Texture texture;
+    int width = 0;
+    int height = 0;
+};
+
+namespace gl {
+
+/// Textures are made on the unit that is active; this puts its bindings and the pixel-store state back.
+class KeepTextureBindings {
+public:
+    KeepTextureBindings();
+    ~KeepTextureBindings();
+    KeepTextureBindings(const KeepTextureBindings&) = delete;
+    KeepTextureBindings& operator=(const KeepTextureBindings&) = delete;
+
+private:
+    GLint flat_ = 0, cube_ = 0, cube_array_ = 0, alignment_ = 4, row_length_ = 0, buffer_ = 0;
+};
+
+/// Throws std::runtime_error in one sentence if the driver ran out of memory since it was last asked.
+void check_memory(const char* what);
+
+/// Writes a mip chain into a texture in portions, coarse levels first.
+class TextureWriter {
+public:
+    /// Allocates; levels wider than the driver takes are skipped. Precondition: a complete chain of 1…4
+    /// channels.
+    TextureWriter(const std::vector<Image>& levels, bool srgb);
+    /// Copies about byte_budget bytes (at least one row); true when all is there.
+    bool step(const std::vector<Image>& levels, std::size_t byte_budget);
+    float fraction() const;
+    GpuMap take() { return std::move(map_); }
+
+private:
+    GpuMap map_;
+    int first_level_ = 0;  ///< levels[first_level_] is the texture's level 0
+    int level_ = 0;        ///< next to be written, counting down to first_level_
+    int row_ = 0;
+    std::size_t written_ = 0, total_ = 0;
+};
+
+/// One 8-bit level for the interface: as stored, no mip maps, clamped.
+GpuMap make_interface_texture(const Image& image);
+
+}  // namespace gl
+}  // namespace patina

@@ -1,0 +1,40 @@
+// From linear radiance to the display picture. Each sample is tone-mapped before the average: an edge against a lamp
+// then has steps that the eye sees as even, which an average of radiances, dominated by the lamp, has not.
+#include "tonemap.glsl"
+
+#ifdef SAMPLES
+uniform sampler2DMS picture;
+#else
+uniform sampler2D picture;
+#endif
+uniform vec3 plain;     // display-linear colour where nothing was drawn
+
+out vec4 display_color;
+
+vec3 tonemapped(vec4 texel) {
+    if (texel.a == 0.0) return plain;
+#if TONEMAP == 1
+    return clamp(tonemap_neutral(texel.rgb), 0.0, 1.0);
+#elif TONEMAP == 2
+    return tonemap_aces(texel.rgb);
+#else
+    return clamp(texel.rgb, 0.0, 1.0);
+#endif
+}
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    vec4 first = texelFetch(picture, at, 0);
+    vec3 color = tonemapped(first);
+#ifdef SAMPLES
+    vec3 sum = color;
+    bool same = true;
+    for (int i = 1; i < SAMPLES; ++i) {
+        vec4 next = texelFetch(picture, at, i);
+        if (next != first) same = false;
+        sum += same ? color : tonemapped(next);
+    }
+    if (!same) color = sum / float(SAMPLES);
+#endif
+    display_color = vec4(encode_srgb(color), 1.0);
+}

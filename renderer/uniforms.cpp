@@ -1,0 +1,117 @@
+#include "renderer/uniforms.h"
+
+#include <glm/glm.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+using glm::vec3;
+using glm::vec4;
+
+/// Roughness at which the environment is shown out of focus.
+constexpr float kBackdropRoughness = 0.35f;
+
+float exposure_factor(const View& view) { return std::exp2(std::clamp(view.exposure_ev, -64.0f, 64.0f)); }
+
+void set_camera(blocks::FrameBlock& block, const Camera& camera, glm::ivec2 size) {
+    const glm::mat4 view = view_matrix(camera);
+    const glm::mat4 projection = projection_matrix(camera, float(size.x) / float(size.y));
+    const glm::mat4 both = projection * view;
+    for (int i = 0; i < 4; ++i) block.view_projection[i] = both[i];
+    block.camera_position = vec4(camera_position(camera), 1.0f);
+    const glm::mat4 rows = glm::transpose(view);
+    const float half_width = 1.0f / projection[0][0];
+    const float half_height = 1.0f / projection[1][1];
+    const float pixel = 2.0f * half_height / float(size.y);
+    block.ray_center = vec4(-vec3(rows[2]), pixel * pixel);
+    block.ray_right = vec4(vec3(rows[0]) * half_width, 0.0f);
+    block.ray_up = vec4(vec3(rows[1]) * half_height, kBackdropRoughness);
+}
+
+/// Turning the environment by ψ about +Y is looking it up along directions turned back by ψ.
+glm::mat3 environment_from_world(float rotation_deg) {
+    const float angle = glm::radians(std::fmod(rotation_deg, 360.0f));
+    const float c = std::cos(angle);
+    const float s = std::sin(angle);
+    return {vec3(c, 0.0f, -s), vec3(0.0f, 1.0f, 0.0f), vec3(s, 0.0f, c)};  // rows
+}
+
+void set_levels(blocks::FrameBlock& block, const LightLayout& light) {
+    const int segments = int(light.roughness.size()) - 1;
+    assert(segments >= 0 && segments < blocks::kMaxLevels);
+    const auto position = [&](int i) { return std::log2(std::max(light.roughness[i], 1e-4f)); };
+    for (int i = 0; i < segments; ++i) {
+        const float length = std::max(position(i + 1) - position(i), 1e-6f);
+        block.level_slope[i / 4][i % 4] = 1.0f / length;
+        block.level_offset[i / 4][i % 4] = -position(i) / length;
+    }
+    const float sharpest = light.roughness.front();
+    block.level_layout = vec4(float(segments), float(light.layers), sharpest, sharpest * sharpest);
+}
+
+/// Per slot: the row that picks ±value from the map, and the bias.
+void set_scalar(const ScalarSlot& slot, bool mapped, vec4& row, float& bias) {
+    row = vec4(0.0f);
+    bias = slot.value;
+    if (!mapped) return;
+    row[int(slot.channel)] = slot.invert ? -slot.value : slot.value;
+    bias = slot.invert ? slot.value : 0.0f;
+}
+
+}  // namespace
+
+blocks::FrameBlock make_frame_block(const Camera& camera, const View& view, glm::ivec2 size_px,
+                                    const LightLayout& light, float largest_radiance) {
+    blocks::FrameBlock block{};
+    const float exposure = exposure_factor(view);
+    set_camera(block, camera, size_px);
+    block.camera_position.w = exposure;
+    block.ray_right.w = largest_radiance;
+    const glm::mat3 rows = environment_from_world(view.env_rotation_deg);
+    for (int i = 0; i < 3; ++i) block.env_from_world[i] = vec4(rows[i], 0.0f);
+    block.env_scale = vec4(light.panorama_scale * exposure, light.levels_scale * exposure,
+                           light.irradiance_scale * exposure, light.texels_per_radian);
+    set_levels(block, light);
+    const int lights = std::min(int(light.lights.size()), blocks::kMaxLights);
+    for (int i = 0; i < lights; ++i) {
+        const ExtractedLight& source = light.lights[i];
+        const float widening = 0.25f * source.angular_radius_rad * source.angular_radius_rad;
+        // glm's columns are these rows, so its product is the transposed one: from environment to world.
+        block.light_direction[i] = vec4(rows * source.direction, widening);
+        block.light_irradiance[i] = vec4(source.irradiance * exposure, 0.0f);
+    }
+    block.counts = vec4(float(lights), float(int(view.debug)), 0.0f, 0.0f);
+    return block;
+}
+
+blocks::MaterialBlock make_material_block(const Material& material, Features features, float exposure) {
+    blocks::MaterialBlock block{};
+    block.albedo = vec4(material.albedo.value, 1.0f);
+    block.emission = vec4(material.emission.value * exposure, 1.0f);
+    set_scalar(material.roughness, has(features, Feature::RoughnessMap), block.roughness,
+               block.scalar_bias.x);
+    set_scalar(material.metallic, has(features, Feature::MetallicMap), block.metallic, block.scalar_bias.y);
+    set_scalar(material.ao, has(features, Feature::AoMap), block.ao, block.scalar_bias.z);
+
+    // The picture turns counter-clockwise by θ when it is looked up at coordinates turned back by θ. A normal
+    // read from it turns along with it; where an axis is mirrored its slope changes sign.
+    const float angle = glm::radians(std::fmod(material.uv.rotation_deg, 360.0f));
+    const float c = std::cos(angle);
+    const float s = std::sin(angle);
+    const glm::vec2 scale = material.uv.scale;
+    block.uv_matrix = vec4(c * scale.x, -s * scale.x, s * scale.y, c * scale.y);
+    block.uv_offset = vec4(material.uv.offset, 0.0f, 0.0f);
+    const glm::vec2 mirror{scale.x < 0.0f ? -1.0f : 1.0f, scale.y < 0.0f ? -1.0f : 1.0f};
+    const float strength = material.normal.value;
+    const float green = material.normal.convention == NormalConvention::DirectX ? -strength : strength;
+    block.normal_x = vec4(mirror.x * c * strength, -mirror.x * s * green, 0.0f, 0.0f);
+    block.normal_y = vec4(mirror.y * s * strength, mirror.y * c * green, 0.0f, 0.0f);
+    return block;
+}
+
+}  // namespace patina

@@ -1,0 +1,34 @@
+// From plain values to the uniform rows the shaders read. Pure; no GL.
+#pragma once
+
+#include "materials/material.h"
+#include "renderer/core/camera.h"
+#include "renderer/core/view.h"
+#include "renderer/features.h"
+#include "renderer/ibl/bake.h"
+#include "renderer/shaders/blocks.h"
+
+#include <glm/vec2.hpp>
+
+#include <vector>
+
+namespace patina {
+
+/// What the frame's rows need to know of the light's textures; scales undo how they are stored.
+struct LightLayout {
+    float panorama_scale = 1.0f;
+    float levels_scale = 1.0f;
+    float irradiance_scale = 1.0f;
+    float texels_per_radian = 1.0f;
+    int layers = 1;
+    std::vector<float> roughness;  ///< of the levels, ascending, at most blocks::kMaxLevels
+    std::vector<ExtractedLight> lights;
+};
+
+blocks::FrameBlock make_frame_block(const Camera& camera, const View& view, glm::ivec2 size_px,
+                                    const LightLayout& light, float largest_radiance);
+
+/// features: which maps are read. exposure: factor on what the surface emits.
+blocks::MaterialBlock make_material_block(const Material& material, Features features, float exposure);
+
+}  // namespace patina
