@@ -8,12 +8,13 @@ namespace patina {
 
 class HeadlessContext {
 public:
-    /// Makes it current on this thread. Throws std::runtime_error with one sentence if there is none to be had.
+    /// Makes it current on this thread. Throws std::runtime_error with one sentence if there is none to be
+    /// had.
     HeadlessContext();
     ~HeadlessContext();
     HeadlessContext(const HeadlessContext&) = delete;
     HeadlessContext& operator=(const HeadlessContext&) = delete;
-    std::string description() const;          ///< renderer and version, for reports
+    std::string description() const;  ///< renderer and version, for reports
 
 private:
     struct State;

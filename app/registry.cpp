@@ -1,1 +1,169 @@
 #include "app/registry.h"
+
+#include "app/paths.h"
+#include "renderer/core/mesh_io.h"
+#include "ui/workspace.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace patina {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+EnvironmentSource builtin_environment_source() {
+    const auto find = [](const std::string& id) {
+        return std::ranges::find(builtin_environments(), std::string_view(id), &BuiltinEnvironment::id);
+    };
+    return {.name = "built-in",
+            .description = "Computed environments that need no file",
+            .list =
+                [] {
+                    std::vector<EnvironmentItem> items;
+                    for (const BuiltinEnvironment& each : builtin_environments())
+                        items.push_back(
+                            {std::string(each.id), std::string(each.title), std::string(each.description)});
+                    return items;
+                },
+            .accepts = [find](const std::string& id) { return find(id) != builtin_environments().end(); },
+            .load = [find](const std::string& id) { return find(id)->make(kBuiltinEnvironmentWidth); }};
+}
+
+Environment load_environment_file(const std::string& id) {
+    const fs::path file = path_from_utf8(id);
+    const LoadedImage loaded = load_image(file);
+    Environment environment = make_environment(loaded.image, id, utf8_from_path(file.stem()));
+    environment.notes.insert(environment.notes.begin(), loaded.notes.begin(), loaded.notes.end());
+    return environment;
+}
+
+EnvironmentSource file_environment_source() {
+    return {.name = "file",
+            .description = "Equirectangular pictures: Radiance .hdr, OpenEXR .exr, or any other picture",
+            .list = [] { return std::vector<EnvironmentItem>{}; },
+            .accepts = [](const std::string& id) { return id.find_first_of("./\\") != std::string::npos; },
+            .load = [](const std::string& id) { return load_environment_file(id); }};
+}
+
+std::string extension_of(const fs::path& file) {
+    std::string extension = utf8_from_path(file.extension());
+    std::ranges::transform(extension, extension.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+    return extension.empty() ? extension : extension.substr(1);
+}
+
+/// The part that reads files with this one's extension, or nullptr.
+template <class Part>
+const Part* part_for(const std::vector<Part>& parts, const fs::path& file) {
+    const std::string extension = extension_of(file);
+    for (const Part& part : parts)
+        if (std::ranges::find(part.extensions, extension) != part.extensions.end()) return &part;
+    return nullptr;
+}
+
+/// "a, b or c"
+std::string either(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
+    return text;
+}
+
+}  // namespace
+
+Registry builtin_parts() {
+    Registry registry;
+    registry.environments = {builtin_environment_source(), file_environment_source()};
+    registry.image_importers = {
+        {.name = "openimageio",
+         .description = "Pictures through OpenImageIO",
+         .extensions = {"png", "jpg", "jpeg", "tif", "tiff", "tga", "bmp", "exr", "hdr", "webp"},
+         .load = load_image}};
+    registry.mesh_importers = {{.name = "openmesh",
+                                .description = "Meshes through OpenMesh",
+                                .extensions = {"obj", "ply", "off", "stl"},
+                                .load = [](const fs::path& file) { return load_mesh(file); }}};
+    registry.image_exporters = {{.name = "png",
+                                 .description = "The display picture, 8 bits a channel",
+                                 .extensions = {"png"},
+                                 .save = save_image},
+                                {.name = "openexr",
+                                 .description = "Scene-linear radiance, 32-bit float",
+                                 .extensions = {"exr"},
+                                 .save = save_image}};
+    for (const BuiltinMesh& each : builtin_meshes())
+        registry.meshes.push_back(
+            {std::string(each.id), std::string(each.title), std::string(each.description), each.make});
+    registry.panels = ui::builtin_panels();
+    return registry;
+}
+
+std::vector<fs::path> shipped_presets() {
+    std::vector<fs::path> files;
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(share_folder() / "presets", ignored))
+        if (entry.path().extension() == ".json" && !entry.path().stem().has_extension())
+            files.push_back(entry.path());
+    std::ranges::sort(files);
+    return files;
+}
+
+fs::path find_preset(const std::string& name) {
+    const fs::path file = path_from_utf8(name);
+    std::error_code ignored;
+    if (fs::exists(file, ignored)) return file;
+    if (!file.has_parent_path() && !file.has_extension()) {
+        const fs::path shipped = share_folder() / "presets" / path_from_utf8(name + ".json");
+        if (fs::exists(shipped, ignored)) return shipped;
+    }
+    throw std::runtime_error(
+        name + ": there is no such file and no shipped preset of that name (patina list presets shows them)");
+}
+
+Environment load_environment(const Registry& registry, const std::string& id) {
+    for (const EnvironmentSource& source : registry.environments)
+        if (source.accepts(id)) return source.load(id);
+    std::vector<std::string> ids;
+    for (const EnvironmentItem& item : registry.environments.front().list()) ids.push_back(item.id);
+    throw std::runtime_error("there is no environment '" + id + "'; name a picture file or one of " +
+                             either(ids));
+}
+
+std::string environment_title(const Registry& registry, const std::string& id) {
+    for (const EnvironmentSource& source : registry.environments)
+        for (const EnvironmentItem& item : source.list())
+            if (item.id == id) return item.title;
+    return utf8_from_path(path_from_utf8(id).stem());
+}
+
+Mesh load_mesh_part(const Registry& registry, const std::string& id) {
+    for (const MeshPart& part : registry.meshes)
+        if (part.id == id) return part.make();
+    const fs::path file = path_from_utf8(id);
+    if (const MeshImporter* importer = part_for(registry.mesh_importers, file)) return importer->load(file);
+    std::vector<std::string> ids;
+    for (const MeshPart& part : registry.meshes) ids.push_back(part.id);
+    std::vector<std::string> extensions;
+    for (const MeshImporter& importer : registry.mesh_importers)
+        for (const std::string& extension : importer.extensions) extensions.push_back("." + extension);
+    throw std::runtime_error("there is no mesh '" + id + "'; name one of " + either(ids) +
+                             ", or a file that ends in " + either(extensions));
+}
+
+LoadedImage import_image(const Registry& registry, const fs::path& file) {
+    // An unknown extension goes to the first importer, which judges by content.
+    const ImageImporter* importer = part_for(registry.image_importers, file);
+    return (importer ? *importer : registry.image_importers.front()).load(file);
+}
+
+const ImageExporter& image_exporter(const Registry& registry, const fs::path& file) {
+    if (const ImageExporter* exporter = part_for(registry.image_exporters, file)) return *exporter;
+    std::vector<std::string> extensions;
+    for (const ImageExporter& each : registry.image_exporters)
+        for (const std::string& extension : each.extensions) extensions.push_back("." + extension);
+    throw std::runtime_error(utf8_from_path(file) + ": a picture's name ends in " + either(extensions));
+}
+
+}  // namespace patina

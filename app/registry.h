@@ -1,10 +1,12 @@
-// The one door for parts: panels, importers, exporters, environment sources and built-in meshes. A part is a plain value;
-// the built-in ones are listed in builtin_parts(), in registry.cpp, and a loaded shared object would call the same add.
+// The one door for parts: panels, importers, exporters, environment sources and built-in meshes. A part is a
+// plain value; the built-in ones are listed in builtin_parts(), in registry.cpp, and a loaded shared object
+// would call the same add.
 #pragma once
 
 #include "renderer/core/environment.h"
 #include "renderer/core/image_io.h"
 #include "renderer/core/mesh.h"
+#include "ui/panel_context.h"
 
 #include <filesystem>
 #include <functional>
@@ -13,26 +15,23 @@
 
 namespace patina {
 
-namespace ui {
-struct PanelContext;
-}
-
-/// A source of light. list() may be called often and must not open files it does not have to; load() runs on a worker and
-/// throws std::runtime_error with one sentence.
+/// A source of light. list() may be called often and must not open files it does not have to; load() runs on
+/// a worker and throws std::runtime_error with one sentence.
 struct EnvironmentItem {
-    std::string id;                  ///< what --env takes and documents store: "studio", or a path
+    std::string id;  ///< what --env takes and documents store: "studio", or a path
     std::string title;
     std::string description;
 };
 struct EnvironmentSource {
-    std::string name;                ///< "built-in", "blender", "file"
+    std::string name;  ///< "built-in", "blender", "file"
     std::string description;
     std::function<std::vector<EnvironmentItem>()> list;
     std::function<bool(const std::string& id)> accepts;
     std::function<Environment(const std::string& id)> load;
 };
 
-/// extensions: lower case, without the dot. load throws std::runtime_error with one sentence that names the file.
+/// extensions: lower case, without the dot. load throws std::runtime_error with one sentence that names the
+/// file.
 struct ImageImporter {
     std::string name;
     std::string description;
@@ -58,32 +57,34 @@ struct MeshPart {
     std::string description;
     std::function<Mesh()> make;
 };
-enum class PanelSide { Left, Right, Bottom };
-struct PanelPart {
-    std::string id;
-    std::string title;
-    std::string description;
-    PanelSide side = PanelSide::Right;
-    std::function<void(ui::PanelContext&)> draw;
-};
-
 struct Registry {
     std::vector<EnvironmentSource> environments;
     std::vector<ImageImporter> image_importers;
     std::vector<MeshImporter> mesh_importers;
     std::vector<ImageExporter> image_exporters;
     std::vector<MeshPart> meshes;
-    std::vector<PanelPart> panels;
+    std::vector<ui::Panel> panels;
 };
 
 /// Everything that ships with the program.
 Registry builtin_parts();
 
+/// The shipped presets: every .json in share_folder()/presets, by file name.
+std::vector<std::filesystem::path> shipped_presets();
+/// A preset as a person names it: a file, or a shipped one's name ("gold"). Throws std::runtime_error.
+std::filesystem::path find_preset(const std::string& name);
+
 /// By id ("studio") or file path; throws std::runtime_error that names what was asked for and what there is.
 Environment load_environment(const Registry& registry, const std::string& id);
+/// What it is called in pictures and lists, without loading it.
+std::string environment_title(const Registry& registry, const std::string& id);
 /// By id ("sphere") or file path; likewise.
 Mesh load_mesh_part(const Registry& registry, const std::string& id);
 /// By the file's extension; likewise.
 LoadedImage import_image(const Registry& registry, const std::filesystem::path& file);
+
+/// The exporter of the file's extension; throws std::runtime_error that names what there is, before anything
+/// is computed.
+const ImageExporter& image_exporter(const Registry& registry, const std::filesystem::path& file);
 
 }  // namespace patina

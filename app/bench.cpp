@@ -1,0 +1,155 @@
+#include "app/bench.h"
+
+#include "app/headless.h"
+#include "app/jobs.h"
+#include "app/paths.h"
+#include "app/scene_loader.h"
+#include "materials/material_io.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+namespace patina {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+double milliseconds(const std::function<void()>& action) {
+    const auto start = std::chrono::steady_clock::now();
+    action();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// A folder of our own that is gone afterwards.
+struct TemporaryFolder {
+    fs::path path;
+    TemporaryFolder() {
+        const auto stamp = std::chrono::steady_clock::now().time_since_epoch().count();
+        path = fs::temp_directory_path() / ("patina-bench-" + std::to_string(stamp));
+        fs::create_directories(path);
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        fs::remove_all(path, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+};
+
+struct FrameCase {
+    std::string name;
+    Scene scene;
+};
+
+/// What a frame may be asked for: every shading mode, then what features and the background add.
+std::vector<FrameCase> frame_cases(SceneLoader& loader, const std::string& environment) {
+    std::vector<FrameCase> cases;
+    SceneOptions options;
+    const auto add = [&](const std::string& name, const std::string& preset) {
+        Scene scene = loader.scene(preset, options);
+        scene.environment = loader.environment(environment);
+        cases.push_back({name, std::move(scene)});
+    };
+    options.view.background = Background::Plain;
+    add("split-sum", "-");
+    for (const auto& mode : kShadings) {
+        if (mode.value == Shading::SplitSum) continue;
+        options.view.shading = mode.value;
+        add(std::string(mode.id), "-");
+    }
+    options.view.shading = Shading::SplitSum;
+    options.overrides = {{"roughness", "0.02"}};
+    add("split-sum, near mirror", "-");
+    options.overrides.clear();
+    for (const fs::path& preset : shipped_presets())
+        if (!map_sources(load_material(preset).material, preset).empty())
+            add("split-sum, " + utf8_from_path(preset.stem()), utf8_from_path(preset));
+    options.view.background = Background::Environment;
+    add("split-sum, environment behind", "-");
+    return cases;
+}
+
+}  // namespace
+
+std::vector<double> interleaved_medians_ms(const std::vector<std::function<void()>>& actions,
+                                           int repetitions) {
+    std::vector<std::vector<double>> times(actions.size());
+    for (const auto& action : actions) action();
+    for (int repetition = 0; repetition < repetitions; ++repetition)
+        for (std::size_t k = 0; k < actions.size(); ++k) {
+            const std::size_t i = repetition % 2 == 0 ? k : actions.size() - 1 - k;
+            times[i].push_back(milliseconds(actions[i]));
+        }
+    std::vector<double> medians;
+    for (const auto& each : times) medians.push_back(median(each));
+    return medians;
+}
+
+Json bench_frame(const BenchContext& context) {
+    HeadlessContext gl;
+    Renderer renderer;
+    const Jobs jobs(worker_count());
+    SceneLoader loader(renderer, context.registry,
+                       {.parallel_for = jobs.parallel_for(), .cache = {.folder = cache_folder() / "ibl"}});
+    Json json{{"renderer", gl.description()},
+              {"environment", context.environments.front()},
+              {"cases", Json::array()}};
+    std::vector<FrameCase> cases = frame_cases(loader, context.environments.front());
+    std::printf("%-36s %8s %10s %10s\n", "frame", "size", "ms", "split-sum=1");
+    for (const int side : {256, 512, 1024}) {
+        const TargetHandle target = renderer.make_target({side, side});
+        std::vector<std::function<void()>> actions;
+        for (FrameCase& each : cases)
+            actions.push_back([&] {
+                renderer.draw(each.scene, *target);
+                renderer.read_display(*target);  // waits until it is drawn
+            });
+        const std::vector<double> ms = interleaved_medians_ms(actions, context.repetitions());
+        for (std::size_t i = 0; i < cases.size(); ++i) {
+            std::printf("%-36s %8d %10.2f %10.2f\n", cases[i].name.c_str(), side, ms[i], ms[i] / ms[0]);
+            json["cases"].push_back(
+                {{"name", cases[i].name}, {"side_px", side}, {"ms", ms[i]}, {"ratio", ms[i] / ms[0]}});
+        }
+    }
+    return json;
+}
+
+Json bench_light(const BenchContext& context) {
+    const Jobs jobs(worker_count());
+    const TemporaryFolder folder;
+    const BakeCache cache{.folder = folder.path};
+    Json json{{"environments", Json::array()}};
+    std::printf("%-36s %10s %10s %10s\n", "light (ms)", "load", "bake", "cached");
+    for (const std::string& id : context.environments) {
+        const Environment environment = load_environment(context.registry, id);
+        const BakeControl control{.parallel_for = jobs.parallel_for()};
+        const std::string key = bake_key(environment, BakeSettings{});
+        const std::vector<double> ms = interleaved_medians_ms(
+            {[&] { load_environment(context.registry, id); },
+             [&] { save_baked(cache, key, *bake_environment(environment, BakeSettings{}, control)); },
+             [&] { load_baked(cache, key); }},
+            context.repetitions());
+        std::printf("%-36s %10.1f %10.1f %10.1f\n", utf8_from_path(path_from_utf8(id).filename()).c_str(),
+                    ms[0], ms[1], ms[2]);
+        json["environments"].push_back({{"id", id},
+                                        {"width", environment.width},
+                                        {"height", environment.height},
+                                        {"load_ms", ms[0]},
+                                        {"bake_and_save_ms", ms[1]},
+                                        {"cached_ms", ms[2]}});
+    }
+    return json;
+}
+
+}  // namespace patina

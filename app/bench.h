@@ -1,0 +1,39 @@
+// Benchmarks: named measurements that print a table and give JSON. Figures are medians of interleaved runs in
+// one process, so that their ratios hold on a noisy machine.
+#pragma once
+
+#include "app/args.h"
+#include "app/registry.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace patina {
+
+struct BenchContext {
+    const Registry& registry;
+    std::vector<std::string> environments;  ///< ids or files to measure on
+    bool quick = false;
+    int repetitions() const { return quick ? 3 : 9; }
+};
+
+struct Benchmark {
+    std::string_view name;
+    std::string_view description;
+    nlohmann::ordered_json (*run)(const BenchContext& context);
+};
+
+/// Median milliseconds of each action, run in turn (a b c … c b a, …) repetitions times after one warm-up.
+std::vector<double> interleaved_medians_ms(const std::vector<std::function<void()>>& actions,
+                                           int repetitions);
+
+/// Cost of a frame by shading mode, features and size, on this machine's GL.
+nlohmann::ordered_json bench_frame(const BenchContext& context);
+/// Cost of light: decoding, baking, reading it back from the disk cache.
+nlohmann::ordered_json bench_light(const BenchContext& context);
+
+}  // namespace patina

@@ -1,0 +1,61 @@
+// patina bench: runs benchmarks by name; tables on standard output, one JSON file each.
+#include "app/bench.h"
+#include "app/commands.h"
+#include "app/console.h"
+#include "app/paths.h"
+#include "renderer/core/file_io.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <span>
+#include <stdexcept>
+
+namespace patina {
+
+namespace {
+
+constexpr std::array kBenchmarks{
+    Benchmark{"light", "decoding, baking and reading back environments", bench_light},
+    Benchmark{"frame", "one frame by shading mode, features and size", bench_frame},
+};
+
+std::vector<const Benchmark*> chosen(const std::vector<std::string>& names) {
+    std::vector<const Benchmark*> benchmarks;
+    for (const Benchmark& each : kBenchmarks)
+        if (names.empty() || std::ranges::find(names, each.name) != names.end()) benchmarks.push_back(&each);
+    for (const std::string& name : names) {
+        if (std::ranges::find(kBenchmarks, name, &Benchmark::name) != kBenchmarks.end()) continue;
+        std::string known;
+        for (const Benchmark& each : kBenchmarks) known += " " + std::string(each.name);
+        throw std::runtime_error("there is no benchmark '" + name + "'; there are:" + known);
+    }
+    return benchmarks;
+}
+
+}  // namespace
+
+int run_bench(const BenchArgs& args, const Registry& registry) {
+    BenchContext context{.registry = registry, .environments = {}, .quick = args.quick};
+    for (const EnvironmentItem& item : registry.environments.front().list())
+        context.environments.push_back(item.id);
+    context.environments.insert(context.environments.end(), args.environments.begin(),
+                                args.environments.end());
+    const std::filesystem::path folder = path_from_utf8(args.output.empty() ? "bench-results" : args.output);
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw std::runtime_error(utf8_from_path(folder) + ": cannot be created (" + error.message() + ")");
+    for (const Benchmark* benchmark : chosen(args.names)) {
+        say(std::string(benchmark->name) + ": " + std::string(benchmark->description));
+        const std::string text = benchmark->run(context).dump(2) + "\n";
+        const std::filesystem::path file = folder / (std::string(benchmark->name) + ".json");
+        write_file(file, std::as_bytes(std::span(text)));
+        say("wrote " + utf8_from_path(file));
+    }
+    return 0;
+}
+
+}  // namespace patina

@@ -1,0 +1,101 @@
+#include "app/scene_loader.h"
+
+#include "app/paths.h"
+#include "materials/material_io.h"
+#include "materials/params.h"
+
+#include <stdexcept>
+
+namespace patina {
+
+namespace fs = std::filesystem;
+
+std::vector<MapSource> map_sources(const Material& material, const fs::path& preset_file) {
+    std::vector<MapSource> sources;
+    const auto add = [&](MapSlot slot, const std::string& map, MapKind kind, ColorSpace space) {
+        if (!map.empty()) sources.push_back({slot, map, resolve_map(preset_file, map), kind, space});
+    };
+    add(MapSlot::Albedo, material.albedo.map, MapKind::Color, material.albedo.color_space);
+    add(MapSlot::Roughness, material.roughness.map, MapKind::Data, ColorSpace::Linear);
+    add(MapSlot::Metallic, material.metallic.map, MapKind::Data, ColorSpace::Linear);
+    add(MapSlot::Ao, material.ao.map, MapKind::Data, ColorSpace::Linear);
+    add(MapSlot::Normal, material.normal.map, MapKind::Normal, ColorSpace::Linear);
+    add(MapSlot::Emission, material.emission.map, MapKind::Color, material.emission.color_space);
+    return sources;
+}
+
+LoadedImage load_map(const Registry& registry, const MapSource& source) {
+    if (source.file.empty())
+        throw std::runtime_error(
+            "the map '" + source.text +
+            "' is a web address, which is never fetched; save the picture beside the preset");
+    return import_image(registry, source.file);
+}
+
+SceneLoader::SceneLoader(Renderer& renderer, const Registry& registry, Options options)
+    : renderer_(renderer), registry_(registry), options_(std::move(options)) {}
+
+EnvironmentHandle SceneLoader::environment(const std::string& id) {
+    EnvironmentHandle& handle = environments_[id];
+    if (handle) return handle;
+    options_.progress("loading " + id, 0.0f);
+    const Environment environment = load_environment(registry_, id);
+    for (const std::string& note : environment.notes) options_.note(id + ": " + note);
+    const BakeControl control{
+        .parallel_for = options_.parallel_for,
+        .progress = [&](float fraction) { options_.progress("baking " + id, fraction); },
+        .stop = {}};
+    const std::optional<CachedBake> result =
+        cached_bake(environment, BakeSettings{}, control, options_.cache);
+    if (!result) throw std::runtime_error(id + ": the bake was stopped");
+    if (!result->note.empty()) options_.note(result->note);
+    for (const std::string& note : result->baked.notes) options_.note(id + ": " + note);
+    return handle = renderer_.upload_environment(environment, result->baked);
+}
+
+MeshHandle SceneLoader::mesh(const std::string& id, bool with_tangents) {
+    MeshHandle& handle = meshes_[{id, with_tangents}];
+    if (handle) return handle;
+    Mesh mesh = load_mesh_part(registry_, id);
+    for (const std::string& note : mesh.notes) options_.note(id + ": " + note);
+    if (with_tangents && !mesh.has_tangents) make_tangents(mesh);
+    return handle = renderer_.upload_mesh(mesh);
+}
+
+MapHandle SceneLoader::map(const MapSource& source, const std::string& preset) {
+    MapHandle& handle = maps_[{utf8_from_path(source.file), source.kind, source.color_space}];
+    if (handle) return handle;
+    options_.progress("loading " + utf8_from_path(source.file.filename()), 0.0f);
+    LoadedImage loaded;
+    try {
+        loaded = load_map(registry_, source);
+    } catch (const std::runtime_error& error) {
+        if (!options_.allow_missing_maps)
+            throw std::runtime_error(preset + ": " + error.what() +
+                                     " (--allow-missing-maps draws a checkerboard in its place)");
+        options_.note(preset + ": " + error.what());
+        loaded.image = make_placeholder_map();
+    }
+    for (const std::string& note : loaded.notes) options_.note(note);
+    return handle = renderer_.upload_map(make_map_levels(loaded.image, source.kind, source.color_space));
+}
+
+Scene SceneLoader::scene(const std::string& preset, const SceneOptions& options) {
+    Scene scene;
+    fs::path file;
+    if (preset != "-") {
+        file = find_preset(preset);
+        LoadedMaterial loaded = load_material(file);
+        for (const std::string& note : loaded.notes) options_.note(preset + ": " + note);
+        scene.material = std::move(loaded.material);
+    }
+    for (const auto& [key, value] : options.overrides) set_parameter(scene.material, key, value);
+    for (const MapSource& source : map_sources(scene.material, file))
+        scene.maps[std::size_t(source.slot)] = map(source, preset);
+    scene.mesh = mesh(options.mesh, !scene.material.normal.map.empty());
+    scene.camera = options.camera;
+    scene.view = options.view;
+    return scene;
+}
+
+}  // namespace patina

@@ -1,0 +1,61 @@
+// From names to a scene the renderer can draw, one thing after the other on the calling thread: what the
+// commands use. Whatever was loaded once is kept and shared by everything that names it again.
+#pragma once
+
+#include "app/args.h"
+#include "app/registry.h"
+#include "renderer/ibl/cache.h"
+#include "renderer/renderer.h"
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace patina {
+
+/// A map that a material names: which file, and how its numbers are meant.
+struct MapSource {
+    MapSlot slot = MapSlot::Albedo;
+    std::string text;            ///< as the preset writes it
+    std::filesystem::path file;  ///< empty where the text names no file (a web address)
+    MapKind kind = MapKind::Data;
+    ColorSpace color_space = ColorSpace::Linear;
+};
+/// One row a slot that names a map. preset_file is what relative paths are relative to.
+std::vector<MapSource> map_sources(const Material& material, const std::filesystem::path& preset_file);
+/// Decodes it; throws std::runtime_error with one sentence that names the map.
+LoadedImage load_map(const Registry& registry, const MapSource& source);
+
+class SceneLoader {
+public:
+    struct Options {
+        ParallelFor parallel_for = serial_for;
+        BakeCache cache;
+        bool allow_missing_maps = false;
+        std::function<void(const std::string&)> note = [](const std::string&) {};  ///< one sentence each
+        std::function<void(const std::string& what, float fraction)> progress = [](const std::string&,
+                                                                                   float) {};
+    };
+    SceneLoader(Renderer& renderer, const Registry& registry, Options options);
+
+    /// Throw std::runtime_error with one sentence.
+    EnvironmentHandle environment(const std::string& id);
+    MeshHandle mesh(const std::string& id, bool with_tangents);
+    /// Material, its maps and the mesh it is put on; the rest of the scene is left to the caller.
+    Scene scene(const std::string& preset, const SceneOptions& options);
+
+private:
+    MapHandle map(const MapSource& source, const std::string& preset);
+
+    Renderer& renderer_;
+    const Registry& registry_;
+    Options options_;
+    std::map<std::string, EnvironmentHandle> environments_;
+    std::map<std::pair<std::string, bool>, MeshHandle> meshes_;
+    std::map<std::tuple<std::string, MapKind, ColorSpace>, MapHandle> maps_;
+};
+
+}  // namespace patina
