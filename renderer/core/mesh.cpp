@@ -29,13 +29,13 @@ void normalize_to_unit_sphere(Mesh& mesh) {
     for (const Vertex& vertex : mesh.vertices) {
         const glm::dvec3 p(vertex.position);
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            throw std::runtime_error("The mesh has a vertex that is not a finite point.");
+            throw std::runtime_error("the mesh has a vertex that is not a finite point.");
         positions.push_back(p);
     }
-    if (positions.empty() || mesh.indices.empty()) throw std::runtime_error("The mesh has no triangle.");
+    if (positions.empty() || mesh.indices.empty()) throw std::runtime_error("the mesh has no triangle.");
     const BoundingSphere sphere = smallest_enclosing_sphere(positions);
     if (!(sphere.radius > 0.0) || !has_area(positions, mesh.indices, sphere.radius))
-        throw std::runtime_error("The mesh has no triangle with an area.");
+        throw std::runtime_error("the mesh has no triangle with an area.");
     for (std::size_t i = 0; i < positions.size(); ++i)
         mesh.vertices[i].position = glm::vec3((positions[i] - sphere.center) / sphere.radius);
 }

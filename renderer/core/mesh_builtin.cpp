@@ -1,4 +1,5 @@
 #include "renderer/core/mesh.h"
+#include "renderer/core/mesh_box.h"
 #include "renderer/core/mesh_lathe.h"
 
 #include <glm/common.hpp>
@@ -44,15 +45,6 @@ Mesh make_quad() {
     return mesh;
 }
 
-/// Seen from outside: right, up, outward.
-struct CubeFace {
-    glm::dvec3 right, up, out;
-};
-constexpr std::array kCubeFaces{
-    CubeFace{{0, 0, -1}, {0, 1, 0}, {1, 0, 0}}, CubeFace{{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}},
-    CubeFace{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}, CubeFace{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
-    CubeFace{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},  CubeFace{{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}}};
-
 /// A place along one axis of a cube face, from edge middle to edge middle.
 struct BevelStation {
     double core;     ///< on the inner cube
@@ -84,7 +76,7 @@ Mesh make_cube() {
 
     Mesh mesh = named_mesh("cube");
     const auto side = std::uint32_t(stations.size());
-    for (const CubeFace& face : kCubeFaces) {
+    for (const BoxSide& face : kBoxSides) {
         const auto first = std::uint32_t(mesh.vertices.size());
         for (const BevelStation& y : stations)
             for (const BevelStation& x : stations) {
