@@ -77,6 +77,9 @@ public:
 
     om::FaceHandle add_face(const VHandles& corners) override {
         if (face_ % 4096 == 0) check_stop();
+        const std::size_t before = soup_.corner_position.size();
+        if (!normals_.empty()) soup_.corner_normal.resize(before, glm::vec3(0.0f));
+        if (!uvs_.empty()) soup_.corner_uv.resize(before, kNoUv);
         for (const om::VertexHandle v : corners) {
             soup_.corner_position.push_back(std::uint32_t(v.idx()));
             if (!normals_.empty())

@@ -52,6 +52,11 @@ bool collect_corners(const PolygonSoup& soup, const Triangles& triangles, std::s
         if (corners.empty() || place(c) != place(corners.back())) corners.push_back(c);
     }
     while (corners.size() > 1 && place(corners.front()) == place(corners.back())) corners.pop_back();
+    if (corners.size() > 3) {  // where a polygon begins must not decide how it is cut
+        const auto by_place = [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); };
+        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end(), by_place),
+                    corners.end());
+    }
     return true;
 }
 

@@ -1,3 +1,4 @@
+#include "mesh_tools.h"
 #include "renderer/core/mesh.h"
 
 #include <glm/geometric.hpp>
@@ -13,6 +14,8 @@
 namespace patina {
 namespace {
 
+using namespace test;
+
 using Key = std::tuple<float, float, float>;
 Key key_of(const glm::vec3& p) { return {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; }
 
@@ -22,35 +25,6 @@ Mesh builtin(std::string_view id) {
     throw std::runtime_error("no such mesh");
 }
 
-struct Corners {
-    Vertex a, b, c;
-};
-std::vector<Corners> triangles(const Mesh& mesh) {
-    std::vector<Corners> list;
-    for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
-        list.push_back({mesh.vertices[mesh.indices[i]], mesh.vertices[mesh.indices[i + 1]],
-                        mesh.vertices[mesh.indices[i + 2]]});
-    return list;
-}
-glm::dvec3 area_vector(const Corners& t) {
-    const glm::dvec3 a(t.a.position);
-    return 0.5 * glm::cross(glm::dvec3(t.b.position) - a, glm::dvec3(t.c.position) - a);
-}
-double area(const Mesh& mesh) {
-    double sum = 0.0;
-    for (const Corners& t : triangles(mesh)) sum += glm::length(area_vector(t));
-    return sum;
-}
-double volume(const Mesh& mesh) {
-    double sum = 0.0;
-    for (const Corners& t : triangles(mesh)) sum += glm::dot(area_vector(t), glm::dvec3(t.a.position)) / 3.0;
-    return sum;
-}
-double uv_area(const Corners& t) {
-    const glm::dvec2 p(glm::dvec2(t.b.uv) - glm::dvec2(t.a.uv));
-    const glm::dvec2 q(glm::dvec2(t.c.uv) - glm::dvec2(t.a.uv));
-    return p.x * q.y - p.y * q.x;
-}
 /// ∂position/∂v, unnormalised.
 glm::dvec3 along_v(const Corners& t) {
     const glm::dvec3 a(t.a.position);
