@@ -12,6 +12,7 @@
 #include "ui/requests.h"
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <array>
 #include <cstdint>
@@ -172,6 +173,8 @@ struct FileBrowser {
     std::vector<BrowserEntry> entries;
     std::vector<BrowserPlace> places;
     std::string error;  ///< one sentence: why the folder cannot be read
+    std::vector<std::string>
+        extensions;  ///< lower case, what can be read; empty: the usual ones for the purpose
     // By the panel:
     std::string search;
     std::string selected;   ///< path
@@ -197,11 +200,13 @@ struct UiState {
     std::uint64_t log_seen = 0;               ///< lines of the log that were shown
     std::array<bool, kMapSlots> slot_open{};  ///< map options unfolded
     int export_width = 1920, export_height = 1080;
-    std::string focus_search;         ///< panel id whose search field takes the keyboard next frame
+    bool focus_search = false;        ///< the library's search field takes the keyboard next frame
     std::optional<MapSlot> hit_slot;  ///< slot under the last drop, flashed for a moment
     double hit_time = 0.0;
-    bool rotating_light = false;  ///< the viewport drag under way turns the light
+    glm::vec3 emission_color{1.0f};  ///< of a black emission, so that its strength can be raised again
+    bool rotating_light = false;     ///< the viewport drag under way turns the light
     bool viewport_drag = false;
+    bool viewport_used = false;  ///< the artist knows how to turn the object: no hint
 };
 
 struct Drop {
