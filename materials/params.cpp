@@ -176,6 +176,19 @@ ConstMapRef map_of(const Material& material, MapSlot slot) {
     return {ref.map, ref.color_space, ref.channel, ref.invert, ref.convention};
 }
 
+void reset_slot(Material& material, MapSlot slot) {
+    Material defaults;
+    const MapRef ref = map_of(material, slot);
+    const MapRef standard = map_of(defaults, slot);
+    ref.map->clear();
+    if (ref.color_space) *ref.color_space = *standard.color_space;
+    if (ref.channel) *ref.channel = *standard.channel;
+    if (ref.invert) *ref.invert = *standard.invert;
+    if (ref.convention) *ref.convention = *standard.convention;
+    for (const MaterialParam& param : kMaterialParams)
+        if (param.slot == slot) reset(param, material);
+}
+
 void set_parameter(Material& material, std::string_view key, std::string_view text) {
     if (const MaterialParam* param = find_param(key)) {
         set_numbers(material, *param, text);

@@ -171,6 +171,8 @@ std::span<const MaterialSlot> material_slots();
 const MaterialSlot& slot_row(MapSlot slot);
 MapRef map_of(Material& material, MapSlot slot);
 ConstMapRef map_of(const Material& material, MapSlot slot);
+/// Back to the defaults: no map, how it is read, and the value that multiplied it.
+void reset_slot(Material& material, MapSlot slot);
 
 /// What `--set key=text` does: the numbers of a parameter ("0.8,0.1,0.1"; one number fills a colour or a
 /// vector), or a slot's settings "roughness.map", ".channel", ".invert", ".color_space", ".convention".
