@@ -239,7 +239,8 @@ std::string file_name(const Reading& reading) {
 }
 std::string word_in_name(const Reading& reading) {
     const std::size_t begin = reading.tokens[reading.first].begin;
-    return quoted(reading.name.substr(begin, reading.tokens[reading.last].end - begin));
+    const std::string word = quoted(reading.name.substr(begin, reading.tokens[reading.last].end - begin));
+    return reading.word->rank == kLetterRank ? "by custom the last letter " + word : word;
 }
 
 bool is_float(const Reading& reading) { return reading.extension == "exr" || reading.extension == "hdr"; }
@@ -277,7 +278,6 @@ std::string reason_of(const Reading& reading, const MapUse& use) {
     if (reading.word->role == MapRole::Normal) reason = normal_reason(reading);
     if (reading.word->role == MapRole::Glossiness)
         reason = word_in_name(reading) + " names glossiness, so it is inverted to roughness";
-    if (reading.word->rank == kLetterRank) reason += " by the custom of one last letter";
     const bool color = use.slot == MapSlot::Albedo || use.slot == MapSlot::Emission;
     if (color && is_float(reading))
         reason += "; float files hold linear light";
@@ -402,9 +402,11 @@ ImportRow unused_row(const Reading& reading) {
 /// What the files' names share before the word, else their folder.
 std::string set_name(const Reading& reading) {
     std::string name;
-    if (reading.word && reading.first > 0 && !reading.names_set_only)
+    std::size_t end = reading.word && !reading.names_set_only ? reading.first : 0;
+    while (end > 0 && reading.tokens[end - 1].noise) --end;
+    if (end > 0)
         name = reading.name.substr(reading.tokens[0].begin,
-                                   reading.tokens[reading.first - 1].end - reading.tokens[0].begin);
+                                   reading.tokens[end - 1].end - reading.tokens[0].begin);
     else if (reading.names_set_only)
         name = reading.name;
     if (name.empty()) name = reading.folder.substr(reading.folder.find_last_of("/\\") + 1);

@@ -65,6 +65,12 @@ TEST(MapNaming, knows_ambientcg) {
                {"emission srgb", "Metal014_4K-PNG_Emission.png"}}));
 }
 
+TEST(MapNaming, names_the_set_without_resolution_and_format) {
+    EXPECT_EQ(proposed({"Metal014_4K-PNG_Color.png", "Metal014_4K-PNG_Roughness.png"}).name, "Metal014");
+    EXPECT_EQ(proposed({"x/metal_plate_diff_1k.jpg", "x/metal_plate_rough_1k.jpg"}).name, "metal plate");
+    EXPECT_EQ(proposed({"scans/helmet/albedo.jpg"}).name, "helmet");
+}
+
 TEST(MapNaming, knows_poly_haven) {
     EXPECT_EQ(slots_of({"metal_plate_diff_1k.jpg", "metal_plate_nor_gl_1k.exr", "metal_plate_nor_dx_1k.exr",
                         "metal_plate_rough_1k.exr", "metal_plate_disp_1k.png", "metal_plate_metal_1k.exr",
