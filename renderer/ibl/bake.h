@@ -66,7 +66,7 @@ struct BakedEnvironment {
 std::vector<float> standard_roughness_levels();
 
 /// Part of the cache key: raised whenever bake_environment's output changes.
-inline constexpr int kBakerVersion = 1;
+inline constexpr int kBakerVersion = 2;
 
 struct BakeSettings {
     std::vector<float> roughness =

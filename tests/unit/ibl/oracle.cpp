@@ -33,31 +33,46 @@ struct Sum {
     double weight = 0.0;
 };
 
-/// Kernel mass of one texel by parts × parts points with exact ring areas.
-double texel_kernel(const Environment& e, int x, int y, glm::dvec3 N, double alpha) {
-    const double step_t = kPi / e.height, step_p = 2.0 * kPi / e.width;
-    const double a2 = alpha * alpha;
-    const glm::dvec3 centre = direction((y + 0.5) * step_t, (x + 0.5) * step_p - kPi);
-    const double angle = std::acos(std::clamp(glm::dot(centre, N), -1.0, 1.0));
-    const double lobe =
-        std::max(alpha, angle / 2);  // GGX is a power law beyond its core: steepness goes with 1/θ
-    const int rows = std::max(2, int(std::ceil(4.0 * step_t / lobe)));
-    const int columns = std::max(2, int(std::ceil(4.0 * step_p * std::sin((y + 0.5) * step_t) / lobe)));
-    double total = 0.0;
-    for (int j = 0; j < rows; ++j) {
-        const double t0 = (y + double(j) / rows) * step_t, t1 = (y + double(j + 1) / rows) * step_t;
-        const double area = (std::cos(t0) - std::cos(t1)) * step_p / columns;
-        for (int i = 0; i < columns; ++i) {
-            const glm::dvec3 L = direction((t0 + t1) / 2, (x + (i + 0.5) / columns) * step_p - kPi);
-            const double NoL = glm::dot(N, L);
-            if (NoL <= 0.0) continue;
-            const glm::dvec3 apart = N - L;
-            const double sin2 = glm::dot(apart, apart) / 4.0;  // of the half angle, without cancellation
-            const double d = sin2 + a2 * (1.0 - sin2);
-            total += area * NoL * a2 / (d * d);
-        }
+/// Part of the sphere between colatitudes t0, t1 and azimuths p0, p1.
+struct Cell {
+    double t0, t1, p0, p1;
+};
+
+double kernel_at(glm::dvec3 N, glm::dvec3 L, double alpha2) {
+    const double NoL = glm::dot(N, L);
+    if (NoL <= 0.0) return 0.0;
+    const glm::dvec3 apart = N - L;
+    const double sin2 = glm::dot(apart, apart) / 4.0;  // of the half angle, without cancellation
+    const double d = sin2 + alpha2 * (1.0 - sin2);
+    return NoL * alpha2 / (d * d);
+}
+
+/// ∫ K over a cell: split until it is small against the lobe, which widens as the power law does with the
+/// distance; then Gauss's rule of 3 × 3 points.
+double cell_kernel(const Cell& cell, glm::dvec3 N, double alpha) {
+    const double t = (cell.t0 + cell.t1) / 2, p = (cell.p0 + cell.p1) / 2;
+    const double height = cell.t1 - cell.t0;
+    const double sine =
+        cell.t0 < kPi / 2 && cell.t1 > kPi / 2 ? 1.0 : std::max(std::sin(cell.t0), std::sin(cell.t1));
+    const double width = (cell.p1 - cell.p0) * sine;
+    const double angle = std::acos(std::clamp(glm::dot(direction(t, p), N), -1.0, 1.0));
+    const double nearest = std::max(0.0, angle - 0.5 * std::hypot(height, width));
+    if (std::max(height, width) > 0.5 * std::max(alpha, 0.5 * nearest)) {
+        const bool by_height = height > width;
+        const Cell one = by_height ? Cell{cell.t0, t, cell.p0, cell.p1} : Cell{cell.t0, cell.t1, cell.p0, p};
+        const Cell two = by_height ? Cell{t, cell.t1, cell.p0, cell.p1} : Cell{cell.t0, cell.t1, p, cell.p1};
+        return cell_kernel(one, N, alpha) + cell_kernel(two, N, alpha);
     }
-    return total;
+    constexpr double kNode[3] = {-0.774596669241483377, 0.0, 0.774596669241483377};
+    constexpr double kWeight[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+    double total = 0.0;
+    for (int i = 0; i < 9; ++i) {
+        const double theta = t + 0.5 * height * kNode[i / 3];
+        const double phi = p + 0.5 * (cell.p1 - cell.p0) * kNode[i % 3];
+        total += kWeight[i / 3] * kWeight[i % 3] * std::sin(theta) *
+                 kernel_at(N, direction(theta, phi), alpha * alpha);
+    }
+    return total * height * (cell.p1 - cell.p0);
 }
 
 }  // namespace
@@ -131,7 +146,9 @@ glm::dvec3 prefiltered_radiance(const Environment& e, glm::dvec3 N, double rough
     Sum sum;
     for (int y = 0; y < e.height; ++y)
         for (int x = 0; x < e.width; ++x) {
-            const double weight = texel_kernel(e, x, y, N, alpha);
+            const Cell texel = {y * kPi / e.height, (y + 1) * kPi / e.height, x * 2.0 * kPi / e.width - kPi,
+                                (x + 1) * 2.0 * kPi / e.width - kPi};
+            const double weight = cell_kernel(texel, N, alpha);
             sum.weight += weight;
             sum.radiance += weight * glm::dvec3(e.radiance[std::size_t(y) * e.width + x]);
         }

@@ -27,7 +27,7 @@ Environment noise_panorama(int width, int height, unsigned seed);
 glm::dvec3 mean_radiance(const Environment& environment);
 
 /// ∫ L K(N·l) dl / ∫ K(N·l) dl with K = D((1+N·l)/2)·N·l: the sum over all texels, each split until its parts
-/// are smaller than a quarter of the lobe, never less than once.
+/// are small against the lobe and integrated by Gauss's rule. Errs less than 1e-5.
 glm::dvec3 prefiltered_radiance(const Environment& environment, glm::dvec3 N, double roughness);
 
 /// A folder of its own, removed at the end.

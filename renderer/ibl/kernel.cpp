@@ -1,0 +1,84 @@
+#include "renderer/ibl/kernel.h"
+
+#include "renderer/ibl/legendre.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace patina {
+namespace {
+
+struct ThetaNode {
+    double theta, weight;
+};
+
+/// 16-point Gauss panels over 0 … π/2, growing with θ as the lobe's power law flattens (a quarter of the
+/// distance already gone) and no longer than ten radians of P_band's oscillation.
+std::vector<ThetaNode> theta_nodes(double alpha, int band) {
+    static const GaussNodes gauss(16);
+    std::vector<ThetaNode> nodes;
+    const double longest = 10.0 / std::max(10, band);
+    for (double begin = 0.0; begin < std::numbers::pi / 2;) {
+        const double step = std::min(std::max(begin * 0.25, alpha * 0.5), longest);
+        const double end = std::min(std::numbers::pi / 2, begin + step);
+        for (std::size_t i = 0; i < gauss.x.size(); ++i) {
+            const double theta = begin + (end - begin) * gauss.x[i];
+            nodes.push_back(
+                {theta, (end - begin) * gauss.weight[i] * std::sin(theta) * ggx_kernel(theta, alpha)});
+        }
+        begin = end;
+    }
+    return nodes;
+}
+
+}  // namespace
+
+double ggx_kernel(double theta, double alpha) {
+    const double half = std::sin(0.5 * theta);
+    const double s = half * half;
+    const double d = s + alpha * alpha * (1.0 - s);
+    return std::cos(theta) * alpha * alpha / (d * d);
+}
+
+std::vector<double> ggx_zonal(double alpha, int band) {
+    assert(alpha > 0.0 && band >= 0);
+    constexpr std::size_t kTogether =
+        8;  // nodes side by side: the sums' order does not depend on the machine
+    std::vector<ThetaNode> nodes = theta_nodes(alpha, band);
+    while (nodes.size() % kTogether != 0) nodes.push_back({0.0, 0.0});
+    std::vector<double> sums((std::size_t(band) + 1) * kTogether, 0.0);
+    for (std::size_t first = 0; first < nodes.size(); first += kTogether) {
+        double x[kTogether], w[kTogether], p[kTogether], before[kTogether];
+        for (std::size_t i = 0; i < kTogether; ++i) {
+            x[i] = std::cos(nodes[first + i].theta);
+            w[i] = nodes[first + i].weight;
+            p[i] = 1.0;
+            before[i] = 0.0;
+        }
+        for (int l = 0; l <= band; ++l) {  // (l + 1) P_(l+1) = (2l + 1) x P_l − l P_(l−1)
+            const double b = double(l) / (l + 1.0);
+            double* sum = &sums[std::size_t(l) * kTogether];
+            for (std::size_t i = 0; i < kTogether; ++i) {
+                sum[i] += w[i] * p[i];
+                const double next = (1.0 + b) * x[i] * p[i] - b * before[i];
+                before[i] = p[i];
+                p[i] = next;
+            }
+        }
+    }
+    std::vector<double> g(std::size_t(band) + 1, 0.0);
+    for (std::size_t i = 0; i < sums.size(); ++i) g[i / kTogether] += sums[i];
+    const double total = g[0];
+    for (double& value : g) value /= total;
+    return g;
+}
+
+double ggx_kernel_integral(double alpha) {
+    double sum = 0.0;
+    for (const ThetaNode& node : theta_nodes(alpha, 1)) sum += node.weight;
+    return 2.0 * std::numbers::pi * sum;
+}
+
+}  // namespace patina
