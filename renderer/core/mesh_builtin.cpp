@@ -1,6 +1,7 @@
 #include "renderer/core/mesh.h"
 #include "renderer/core/mesh_box.h"
 #include "renderer/core/mesh_lathe.h"
+#include "renderer/core/mesh_shaderball.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -126,6 +127,9 @@ constexpr std::array kBuiltinMeshes{
                 make_cube},
     BuiltinMesh{"torus", "Torus", "Curved both ways: shows stretching and anisotropy of textures.",
                 make_torus},
+    BuiltinMesh{"shaderball", "Shader ball",
+                "Hollows, edges, a groove and a pearl in a bowl: a material at all scales at once.",
+                make_shaderball},
 };
 
 }  // namespace

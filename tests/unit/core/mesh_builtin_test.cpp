@@ -49,7 +49,8 @@ std::size_t open_edges(const Mesh& mesh) {
 }
 
 class EveryBuiltin : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Meshes, EveryBuiltin, testing::Values("sphere", "quad", "cube", "torus"),
+INSTANTIATE_TEST_SUITE_P(Meshes, EveryBuiltin,
+                         testing::Values("sphere", "quad", "cube", "torus", "shaderball"),
                          [](const auto& mesh) { return mesh.param; });
 
 TEST_P(EveryBuiltin, is_well_formed_and_inside_the_unit_sphere) {
@@ -116,7 +117,7 @@ TEST(BuiltinMeshes, are_listed_in_the_order_shown) {
         EXPECT_FALSE(mesh.title.empty());
         EXPECT_TRUE(mesh.description.ends_with('.'));
     }
-    EXPECT_EQ(order, "sphere quad cube torus ");
+    EXPECT_EQ(order, "sphere quad cube torus shaderball ");
 }
 
 TEST(BuiltinMeshes, have_the_areas_and_volumes_of_their_ideals) {
