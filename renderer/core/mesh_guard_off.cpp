@@ -129,8 +129,8 @@ private:
         bool lost = false;
         for (const Span& word : last) lost = zero_if_lost(word) || lost;
         if (lost) ++lost_uvs_;
-        std::string pair = ' ' + std::string(last[0].of(file_.text)) + ' ';
-        pair += last[1].of(file_.text);
+        std::string pair;  // anew, because what was zeroed is shorter now
+        for (Span word : last) pair += ' ' + std::string(next_word(file_.text, word).of(file_.text));
         overwrite(file_.text, all, pair);
     }
 

@@ -108,7 +108,9 @@ private:
             if (rest.empty()) refuse("the file ends in the middle of a triangle; it is cut off.");
             three = take_line(rest);
             const std::string_view word = next_word(file_.text, three).of(file_.text);
-            if (word != "vertex" && word != "VERTEX") refuse("here has to be a vertex.");
+            if (word != "vertex" && word != "VERTEX")
+                refuse("here has to be a vertex" +
+                       std::string(rest.empty() ? "; the file is cut off." : "."));
             Span words = three;
             for (int k = 0; k < 3; ++k) {
                 const auto value = parse_number(next_word(file_.text, words).of(file_.text));
