@@ -185,6 +185,13 @@ struct FileBrowser {
 
 // ---- the interface's own state, nothing of the document ----
 
+/// The slider bar that is held: where its drag began.
+struct BarDrag {
+    float from_x = 0.0f;
+    float from_fraction = 0.0f;
+    bool fine = false;
+};
+
 struct UiState {
     std::string left_tab, right_tab;  ///< panel ids; empty: the first
     std::string drawer;               ///< open bottom panel's id; empty: closed
@@ -203,6 +210,7 @@ struct UiState {
     bool focus_search = false;        ///< the library's search field takes the keyboard next frame
     std::optional<MapSlot> hit_slot;  ///< slot under the last drop, flashed for a moment
     double hit_time = 0.0;
+    BarDrag bar_drag;
     glm::vec3 emission_color{1.0f};  ///< of a black emission, so that its strength can be raised again
     bool rotating_light = false;     ///< the viewport drag under way turns the light
     bool viewport_drag = false;

@@ -22,13 +22,14 @@ struct Shelf {
     const char* hint;
     const char* placeholder;
     float aspect = 1.0f;
-    float card_width = 96.0f;  ///< at least, at scale 1
+    float card_width = 84.0f;  ///< at least, at scale 1
     std::string_view nothing;  ///< said when the shelf is empty
 };
 
 /// Draws the cards that match the search; returns the clicked one.
 const CatalogItem* draw_cards(PanelContext& context, const Shelf& shelf) {
-    const float full = ImGui::GetContentRegionAvail().x - px(8), gap = px(12);
+    ImGui::Dummy({0.0f, 0.0f});  // room for the first row's frame
+    const float full = ImGui::GetContentRegionAvail().x - px(10), gap = px(12);
     const int columns = std::max(1, static_cast<int>((full + gap) / (px(shelf.card_width) + gap)));
     const float width =
         std::floor((full - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns));
@@ -73,12 +74,10 @@ const CatalogItem* draw_shelf(PanelContext& context, const Shelf& shelf, const F
     search_field(context, std::string(shelf.name) + ".search", shelf.search, shelf.hint,
                  context.ui.focus_search);
     context.ui.focus_search = false;
-    const float foot = ImGui::GetFrameHeight() + px(8);
+    const float foot = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.y;
     ImGui::BeginChild("##shelf", {0.0f, -foot});
-    ImGui::Dummy({0.0f, px(1)});
     const CatalogItem* clicked = draw_cards(context, shelf);
     ImGui::EndChild();
-    ImGui::Dummy({0.0f, 0.0f});
     if (button(context, footer.name, footer.text, footer.tooltip,
                {.width = ImGui::GetContentRegionAvail().x}))
         open_browser(context, footer.purpose);

@@ -20,7 +20,7 @@
 namespace patina::ui {
 namespace {
 
-constexpr float kThumb = 54.0f;        // at scale 1
+constexpr float kThumb = 50.0f;        // at scale 1
 constexpr double kFlashSeconds = 0.8;  // a card lights up when something was dropped on it
 
 std::string name_of(std::string_view key, const char* what = nullptr) {
@@ -166,7 +166,8 @@ void draw_map_thumbnail(PanelContext& context, const MaterialSlot& slot, const M
                                             : color::kOutline);
     if (empty) draw_invitation(rect);
     const std::string about = empty ? std::string(slot.tooltip) + " Drop one here, or click to choose a file."
-                                    : (map.full_path.empty() ? std::string(slot.tooltip) : map.full_path);
+                              : map.full_path.empty() ? std::string(slot.tooltip)
+                                                      : map.full_path + "\n" + bytes_text(map.file_bytes);
     finish_item(context, name, about);
     if (pressed)
         open_browser(context, bad ? BrowserPurpose::LocateMap : BrowserPurpose::AssignMap, slot.slot);
@@ -189,11 +190,13 @@ void draw_map_buttons(PanelContext& context, const MaterialSlot& slot, const Map
 }
 
 std::string facts_of(const MapStatus& map) {
+    static constexpr std::array kChannelNames{"", "grey", "grey+A", "RGB", "RGBA"};
     if (map.state == MapState::Loading) return "Loading…";
+    if (map.width <= 0) return "";
     std::array<char, 96> text{};
-    std::snprintf(text.data(), text.size(), "%d × %d  ·  %d-bit  ·  %s", map.width, map.height,
-                  map.bits * map.channels, bytes_text(map.file_bytes).c_str());
-    return map.width > 0 ? text.data() : "";
+    std::snprintf(text.data(), text.size(), "%d × %d  ·  %d-bit %s", map.width, map.height, map.bits,
+                  kChannelNames[static_cast<std::size_t>(std::clamp(map.channels, 0, 4))]);
+    return text.data();
 }
 
 void draw_map_options(PanelContext& context, const MaterialSlot& slot, const MapRef& ref, float right) {
@@ -210,8 +213,8 @@ void draw_map_options(PanelContext& context, const MaterialSlot& slot, const Map
              "Take 1 − the map: for a glossiness map in the roughness slot.", *ref.invert);
 }
 
-void draw_map_problem(PanelContext& context, const MaterialSlot& slot, const MapStatus& map) {
-    text_wrapped(map.message, color::kWarning, Face::Small);
+void draw_map_problem(PanelContext& context, const MaterialSlot& slot, const MapStatus& map, float width) {
+    text_wrapped(map.message, color::kWarning, Face::Small, width);
     if (button(context, name_of(slot.key, "locate"), "Locate file…",
                "Show where the file is now; other missing maps beside it are found as well."))
         open_browser(context, BrowserPurpose::LocateMap, slot.slot);
@@ -221,20 +224,24 @@ void draw_map_problem(PanelContext& context, const MaterialSlot& slot, const Map
         context.requests.push_back(request::ReloadMap{slot.slot});
 }
 
+/// The map's name, its facts at the right end of the same line, and how it is read.
 void draw_map_lines(PanelContext& context, const MaterialSlot& slot, const MapStatus& map, const MapRef& ref,
                     float right) {
     ImGui::PushFont(font_of(Face::Small));
     const std::string facts = facts_of(map);
-    text_line(context, file_name_of(*ref.map), color::kText, right - ImGui::GetCursorScreenPos().x);
-    if (!facts.empty()) text_line(context, facts, color::kMuted, right - ImGui::GetCursorScreenPos().x);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float facts_width = ImGui::CalcTextSize(facts.c_str()).x;
+    text_line(context, file_name_of(*ref.map), color::kText, right - at.x - facts_width - px(10));
+    ImGui::GetWindowDrawList()->AddText({right - facts_width, at.y}, color::kMuted, facts.c_str());
     ImGui::PopFont();
-    if (map.state == MapState::Missing || map.state == MapState::Broken) draw_map_problem(context, slot, map);
+    if (map.state == MapState::Missing || map.state == MapState::Broken)
+        draw_map_problem(context, slot, map, right - at.x);
     draw_map_options(context, slot, ref, right);
 }
 
-void draw_hint(std::string_view text) {
+void draw_hint(std::string_view text, float width) {
     if (text.empty()) return;
-    text_wrapped(std::string(icon::kInfo) + "  " + std::string(text), color::kWarning, Face::Small);
+    text_wrapped(std::string(icon::kInfo) + "  " + std::string(text), color::kWarning, Face::Small, width);
 }
 
 /// Value and map of one slot are as saved?
@@ -326,12 +333,13 @@ void draw_slot_card(PanelContext& context, const MaterialParam& param, std::stri
     ImGui::SetCursorScreenPos({left, origin.y});
     draw_slot_title(context, param, slot, card.right());
     const Line line{left + px(10), card.right() - left - px(10)};
-    ImGui::SetCursorScreenPos({line.left, origin.y + ImGui::GetFrameHeight() + px(6)});
+    ImGui::SetCursorScreenPos({line.left, origin.y + ImGui::GetFrameHeight() + px(5)});
     draw_slot_value(context, param, slot, line);
-    const float below = std::max(ImGui::GetCursorScreenPos().y, origin.y + px(kThumb + 6));
-    ImGui::SetCursorScreenPos({card.left(), below});
+    if (!ref.map->empty() || !hint.empty())
+        ImGui::SetCursorScreenPos(
+            {card.left(), std::max(ImGui::GetCursorScreenPos().y, origin.y + px(kThumb + 5))});
     if (!ref.map->empty()) draw_map_lines(context, slot, map, ref, card.right());
-    draw_hint(hint);
+    draw_hint(hint, card.right() - card.left());
     const Rect rect = card.measure();
     card.close(is_drop_target(context, slot.slot, rect));
     record(context, name_of(slot.key, "card"));

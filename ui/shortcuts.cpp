@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace patina::ui {
 namespace {
@@ -232,47 +233,65 @@ bool begin_sheet(const char* id, const char* title, float width, bool& open) {
     return true;
 }
 
-void draw_key_rows(const char* heading_text, const char* table, bool (*belongs)(const Shortcut&)) {
-    heading(heading_text);
-    if (!ImGui::BeginTable(table, 2)) return;
-    ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, px(118));
-    ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
+struct SheetRow {
+    std::string keys, what, about;
+};
+
+/// One row an action, with all its keys; the debug views share one.
+std::vector<SheetRow> sheet_rows(bool (*belongs)(const Shortcut&)) {
     const bool mac = ImGui::GetIO().ConfigMacOSXBehaviors;
+    std::vector<SheetRow> rows;
+    std::optional<Action> last;
     for (const Shortcut& shortcut : kShortcuts) {
         if (shortcut.key == KeyNone || !belongs(shortcut)) continue;
-        ImGui::TableNextRow();
-        ImGui::TableNextColumn();
-        ImGui::PushStyleColor(ImGuiCol_Text, color::kAccent);
-        ImGui::TextUnformatted(key_text(shortcut, mac).c_str());
-        ImGui::PopStyleColor();
-        ImGui::TableNextColumn();
-        text_wrapped(shortcut.description, color::kText);
+        if (shortcut.action > Action::Debug1 && shortcut.action <= Action::Debug10) continue;
+        if (shortcut.action == Action::Debug1)
+            rows.push_back({"1 … 9, 0", "Final picture, or one ingredient", "As listed in View, Show."});
+        else if (shortcut.action == last)
+            rows.back().keys += " or " + key_text(shortcut, mac);
+        else
+            rows.push_back(
+                {key_text(shortcut, mac), std::string(shortcut.title), std::string(shortcut.description)});
+        last = shortcut.action;
     }
-    ImGui::EndTable();
+    return rows;
 }
 
-void draw_mouse_rows() {
-    heading("Mouse on the picture");
-    constexpr std::array<std::array<const char*, 2>, 6> kRows{
-        {{"Drag", "Orbit around the object."},
-         {"Shift+drag, middle", "Pan."},
-         {"Wheel", "Zoom."},
-         {"Right, L+drag", "Turn the light."},
-         {"Double-click", "Reset the view; on a value: its default."},
-         {"Shift on a bar", "Drag ten times finer."}}};
-    if (!ImGui::BeginTable("##mouse", 2)) return;
-    ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, px(118));
-    ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
-    for (const auto& row : kRows) {
-        ImGui::TableNextRow();
-        ImGui::TableNextColumn();
-        ImGui::PushStyleColor(ImGuiCol_Text, color::kAccent);
-        ImGui::TextUnformatted(row[0]);
-        ImGui::PopStyleColor();
-        ImGui::TableNextColumn();
-        text_wrapped(row[1], color::kText);
+void draw_rows(PanelContext& context, const char* heading_text, const std::vector<SheetRow>& rows) {
+    heading(heading_text);
+    ImGui::PushID(heading_text);
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(px(6), px(2)));
+    if (ImGui::BeginTable("##rows", 2)) {
+        ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, px(140));
+        ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
+        for (const SheetRow& row : rows) {
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            text_line(context, row.keys, color::kAccent);
+            ImGui::TableNextColumn();
+            text_line(context, row.what);
+            explain(context, row.about);
+        }
+        ImGui::EndTable();
     }
-    ImGui::EndTable();
+    ImGui::PopStyleVar();
+    ImGui::PopID();
+}
+
+std::vector<SheetRow> mouse_rows() {
+    return {{"Drag", "Orbit around the object", ""},
+            {"Shift+drag, middle", "Pan", ""},
+            {"Wheel", "Zoom", ""},
+            {"Right-drag, L+drag", "Turn the light", ""},
+            {"Double-click", "Reset the view", ""}};
+}
+
+std::vector<SheetRow> value_rows() {
+    return {{"Drag", "Change a value", ""},
+            {"Shift+drag", "Ten times finer", ""},
+            {"Click on the number", "Type it", ""},
+            {"Double-click", "Back to its default", ""},
+            {"Right-click", "Reset, or back to the saved value", "On the value's name."}};
 }
 
 bool is_view_key(const Shortcut& s) { return s.action >= Action::Frame && s.action <= Action::Debug10; }
@@ -305,6 +324,10 @@ std::string key_text(const Shortcut& shortcut, bool mac) {
             return text + "Home";
         case KeyF1:
             return text + "F1";
+        case KeyPeriod:
+            return text + "Period";
+        case KeyComma:
+            return text + "Comma";
         case KeyEqual:
             return text + "+";
         case KeyMinus:
@@ -355,18 +378,19 @@ void handle_shortcuts(PanelContext& context) {
 }
 
 void draw_shortcut_sheet(PanelContext& context) {
-    if (!begin_sheet("##shortcuts", "Keyboard and mouse", px(860), context.ui.show_shortcuts)) return;
+    if (!begin_sheet("##shortcuts", "Keyboard and mouse", px(800), context.ui.show_shortcuts)) return;
     record_rect(
         context, "sheet.shortcuts",
         {ImGui::GetWindowPos().x, ImGui::GetWindowPos().y, ImGui::GetWindowPos().x + ImGui::GetWindowSize().x,
          ImGui::GetWindowPos().y + ImGui::GetWindowSize().y});
     if (ImGui::BeginTable("##columns", 2, ImGuiTableFlags_SizingStretchSame)) {
         ImGui::TableNextColumn();
-        draw_key_rows("File and edit", "##file", is_file_key);
-        draw_mouse_rows();
-        draw_key_rows("Window", "##window", is_window_key);
+        draw_rows(context, "File and edit", sheet_rows(is_file_key));
+        draw_rows(context, "On the picture", mouse_rows());
+        draw_rows(context, "On a value", value_rows());
         ImGui::TableNextColumn();
-        draw_key_rows("View", "##view", is_view_key);
+        draw_rows(context, "View", sheet_rows(is_view_key));
+        draw_rows(context, "Window", sheet_rows(is_window_key));
         ImGui::EndTable();
     }
     ImGui::EndPopup();

@@ -42,7 +42,7 @@ void draw_jobs(PanelContext& context, float height) {
     if (job.progress >= 0.0f) {
         std::array<char, 16> percent{};
         std::snprintf(percent.data(), percent.size(), "%.0f %%",
-                      std::floor(100.0 * static_cast<double>(job.progress)));
+                      std::floor(100.0 * static_cast<double>(job.progress) + 0.001));
         put_text(percent.data(), color::kMuted, height);
     }
     if (job.can_cancel) {

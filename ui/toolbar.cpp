@@ -16,8 +16,8 @@
 namespace patina::ui {
 namespace {
 
-constexpr std::array kItemWidths{132.0f, 116.0f, 138.0f, 106.0f,
-                                 128.0f};  // mesh, shading, view, tone map, exposure
+// At scale 1: mesh, shading, view, tone map, exposure.
+constexpr std::array kItemWidths{120.0f, 112.0f, 168.0f, 104.0f, 128.0f};
 constexpr float kGap = 6.0f, kPadX = 8.0f, kPadY = 5.0f;
 
 template <class T, std::size_t n>
@@ -82,7 +82,7 @@ float toolbar_height(float width) {
 }
 
 void draw_toolbar(PanelContext& context, const Rect& rect) {
-    begin_region(context, "toolbar", rect, {.background = color::kBar, .padding = {kPadX, kPadY}});
+    begin_region(context, "toolbar", rect, {.padding = {kPadX, kPadY}});
     const ImVec2 origin = ImGui::GetCursorScreenPos();
     float x = 0.0f, y = 0.0f;
     for (std::size_t i = 0; i < kItemWidths.size(); ++i) {
@@ -115,7 +115,7 @@ void draw_toolbar(PanelContext& context, const Rect& rect) {
                              .tooltip = "How the light's unbounded range is brought onto the screen."});
                 break;
             default:
-                exposure_item(context, width);
+                exposure_item(context, std::clamp(rect.width() - 2.0f * px(kPadX) - x, width, px(220)));
                 break;
         }
         x += width + px(kGap);

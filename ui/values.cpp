@@ -36,32 +36,17 @@ float from_fraction(const NumberRow& row, float fraction) {
     return std::clamp(std::round(value / row.step) * row.step, row.min, row.max);
 }
 
-/// The held bar's anchor: where the drag began. Kept in the window's storage, so that a bar needs no state of
-/// its own.
-struct Anchor {
-    float* x;
-    float* fraction;
-    int* fine;
-};
-Anchor anchor_of(ImGuiID id) {
-    ImGuiStorage* storage = ImGui::GetStateStorage();
-    return {storage->GetFloatRef(id ^ 0x51ed27u), storage->GetFloatRef(id ^ 0x2f1b33u),
-            storage->GetIntRef(id ^ 0x77a911u)};
-}
-
-bool drag_bar(const NumberRow& row, float& value, float width) {
+/// Moves the held bar: as far from where the drag began as the mouse, a tenth of it with Shift.
+bool drag_bar(PanelContext& context, const NumberRow& row, float& value, float width) {
     const ImGuiIO& io = ImGui::GetIO();
-    const Anchor anchor = anchor_of(ImGui::GetItemID());
-    const int fine = io.KeyShift ? 1 : 0;
-    if (ImGui::IsItemActivated() || *anchor.fine != fine) {
-        *anchor.x = io.MousePos.x;
-        *anchor.fraction = to_fraction(row, value);
-        *anchor.fine = fine;
+    BarDrag& drag = context.ui.bar_drag;
+    if (ImGui::IsItemActivated() || drag.fine != io.KeyShift) {
+        drag = {io.MousePos.x, to_fraction(row, value), io.KeyShift};
         return false;
     }
     if (!ImGui::IsMouseDragging(ImGuiMouseButton_Left, px(2))) return false;
-    const float moved = (io.MousePos.x - *anchor.x) / width * (fine ? 0.1f : 1.0f);
-    const float next = from_fraction(row, *anchor.fraction + moved);
+    const float moved = (io.MousePos.x - drag.from_x) / width * (drag.fine ? 0.1f : 1.0f);
+    const float next = from_fraction(row, drag.from_fraction + moved);
     if (next == value) return false;
     value = next;
     return true;
@@ -94,7 +79,8 @@ bool pick_color(glm::vec3& value) {
     std::array<float, 3> before = encoded;
     constexpr ImGuiColorEditFlags kFlags = ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoAlpha |
                                            ImGuiColorEditFlags_DisplayRGB | ImGuiColorEditFlags_DisplayHSV |
-                                           ImGuiColorEditFlags_PickerHueBar | ImGuiColorEditFlags_NoLabel;
+                                           ImGuiColorEditFlags_PickerHueBar |
+                                           ImGuiColorEditFlags_NoSmallPreview | ImGuiColorEditFlags_NoLabel;
     ImGui::SetNextItemWidth(px(220));
     if (!ImGui::ColorPicker3("##picker", encoded.data(), kFlags)) return false;
     bool changed = false;
@@ -180,8 +166,11 @@ LabelAction row_label(PanelContext& context, const RowLabel& label) {
     if (ImGui::BeginPopupContextItem("##menu")) {
         if (ImGui::MenuItem("Reset to default", nullptr, false, !label.at_default))
             action = LabelAction::Reset;
+        finish_item(context, part(label.name, "reset"),
+                    "The value of a new material; a double-click does the same.");
         if (ImGui::MenuItem("Back to the saved value", nullptr, false, label.changed))
             action = LabelAction::Revert;
+        finish_item(context, part(label.name, "revert"), "The value that the file holds.");
         ImGui::EndPopup();
     }
     ImGui::PopID();
@@ -194,11 +183,11 @@ bool number_bar(PanelContext& context, const NumberRow& row, float& value, float
     const float height = ImGui::GetFrameHeight();
     ImGui::InvisibleButton("##bar", {width, height});
     const bool active = ImGui::IsItemActive(), hovered = ImGui::IsItemHovered();
-    bool changed = active && drag_bar(row, value, width);
+    bool changed = active && drag_bar(context, row, value, width);
     if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && value != row.reset) {
         value = row.reset;
         changed = true;
-        anchor_of(ImGui::GetItemID()).fraction[0] = to_fraction(row, value);
+        context.ui.bar_drag.from_fraction = to_fraction(row, value);
     }
     ImGui::PopID();
     const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();

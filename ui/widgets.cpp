@@ -34,6 +34,33 @@ int grow_string(ImGuiInputTextCallbackData* data) {
     return 0;
 }
 
+void draw_tab(PanelContext& context, std::string_view strip, const Tab& tab, const Rect& rect,
+              std::string& current) {
+    push_id(tab.id);
+    ImGui::SetCursorScreenPos({rect.x0, rect.y0});
+    if (ImGui::InvisibleButton("##tab", {rect.width(), rect.height()})) current = tab.id;
+    ImGui::PopID();
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    const bool chosen = tab.id == current, hovered = ImGui::IsItemHovered();
+    const char* begin = tab.title.data();
+    const char* end = begin + tab.title.size();
+    ImGui::PushFont(font_of(chosen ? Face::Strong : Face::Body));
+    const ImVec2 size = ImGui::CalcTextSize(begin, end);
+    const float inset = std::max(2.0f, (rect.width() - size.x) / 2);
+    const ImVec2 at{std::round(rect.x0 + inset), std::round((rect.y0 + rect.y1 - size.y) / 2)};
+    ImGui::PushStyleColor(ImGuiCol_Text, chosen || hovered ? color::kText : color::kMuted);
+    ImGui::RenderTextEllipsis(draw, at, {rect.x1, rect.y1}, rect.x1, rect.x1, begin, end, &size);
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+    if (chosen) {
+        const float edge = std::max(0.0f, inset - px(6));
+        draw->AddRectFilled({rect.x0 + edge, rect.y1 - px(2)}, {rect.x1 - edge, rect.y1}, color::kAccent,
+                            px(1));
+    }
+    finish_item(context, std::string(strip) + "." + std::string(tab.id), tab.tooltip,
+                std::max(0.0f, size.x - rect.width()));
+}
+
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
 }  // namespace
@@ -110,10 +137,10 @@ void text_line(PanelContext& context, std::string_view text, ImU32 text_color, f
     if (size.x > available) explain(context, text);
 }
 
-void text_wrapped(std::string_view text, ImU32 text_color, Face face) {
+void text_wrapped(std::string_view text, ImU32 text_color, Face face, float width) {
     ImGui::PushFont(font_of(face));
     ImGui::PushStyleColor(ImGuiCol_Text, text_color);
-    ImGui::PushTextWrapPos(0.0f);
+    ImGui::PushTextWrapPos(width > 0.0f ? ImGui::GetCursorPosX() + width : 0.0f);
     ImGui::TextUnformatted(text.data(), text.data() + text.size());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
@@ -177,7 +204,9 @@ bool icon_button(PanelContext& context, std::string_view name, const char* icon,
 bool checkbox(PanelContext& context, std::string_view name, const char* text, std::string_view tooltip,
               bool& value) {
     push_id(name);
+    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1.0f);
     const bool changed = ImGui::Checkbox(text, &value);
+    ImGui::PopStyleVar();
     ImGui::PopID();
     finish_item(context, name, tooltip);
     return changed;
@@ -262,23 +291,43 @@ bool segmented(PanelContext& context, std::string_view name, std::span<const Opt
     return changed;
 }
 
+namespace {
+
+/// What a closed combo shows: icon, title cut to fit, chevron. Drawn over ImGui's empty frame.
+float draw_combo_preview(const Rect& rect, const ComboStyle& style, std::string_view title) {
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    const float pad = ImGui::GetStyle().FramePadding.x, y = rect.y0 + ImGui::GetStyle().FramePadding.y;
+    float x = rect.x0 + pad;
+    if (style.icon) {
+        draw->AddText({x, y}, color::kMuted, style.icon);
+        x += px(22);
+    }
+    const ImVec2 arrow = ImGui::CalcTextSize(icon::kDown);
+    draw->AddText({rect.x1 - arrow.x - px(6), y}, color::kMuted, icon::kDown);
+    const float end = rect.x1 - arrow.x - px(8);
+    const ImVec2 size = ImGui::CalcTextSize(title.data(), title.data() + title.size());
+    ImGui::RenderTextEllipsis(draw, {x, y}, {end, rect.y1}, end, end, title.data(),
+                              title.data() + title.size(), &size);
+    return std::max(0.0f, x + size.x - end);
+}
+
+}  // namespace
+
 bool combo(PanelContext& context, std::string_view name, std::span<const Option> options, int& index,
            const ComboStyle& style) {
     push_id(name);
     const bool valid = index >= 0 && index < static_cast<int>(options.size());
     const std::string_view title = !style.preview.empty() ? style.preview
                                    : valid                ? options[static_cast<std::size_t>(index)].title
-                                                          : "";
-    std::string preview;
-    if (style.icon) preview = std::string(style.icon) + "  ";
-    preview += title;
+                                                          : std::string_view{};
     const float width = style.width > 0.0f ? style.width : ImGui::GetContentRegionAvail().x;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const Rect rect{at.x, at.y, at.x + width, at.y + ImGui::GetFrameHeight()};
     ImGui::SetNextItemWidth(width);
-    ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(0, 0, 0, 0));
-    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, IM_COL32(0, 0, 0, 0));
-    const bool open = ImGui::BeginCombo("##combo", preview.c_str(), ImGuiComboFlags_HeightLargest);
-    ImGui::PopStyleColor(2);
-    const float room = width - ImGui::GetFrameHeight() - ImGui::GetStyle().FramePadding.x;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(8), px(8)));
+    const bool open =
+        ImGui::BeginCombo("##combo", "", ImGuiComboFlags_HeightLargest | ImGuiComboFlags_NoArrowButton);
+    ImGui::PopStyleVar();
     bool changed = false;
     if (open) {
         for (int i = 0; i < static_cast<int>(options.size()); ++i) {
@@ -294,7 +343,8 @@ bool combo(PanelContext& context, std::string_view name, std::span<const Option>
         ImGui::EndCombo();
     }
     ImGui::PopID();
-    finish_item(context, name, style.tooltip, std::max(0.0f, ImGui::CalcTextSize(preview.c_str()).x - room));
+    const float missing = draw_combo_preview(rect, style, title);
+    finish_item(context, name, style.tooltip, missing);
     return changed;
 }
 
@@ -303,32 +353,23 @@ void tab_strip(PanelContext& context, std::string_view name, std::span<const Tab
     if (tabs.empty()) return;
     if (std::none_of(tabs.begin(), tabs.end(), [&](const Tab& tab) { return tab.id == current; }))
         current = tabs[0].id;
+    ImGui::PushFont(font_of(Face::Strong));
+    std::vector<ImVec2> sizes;
+    float words = 0.0f;
+    for (const Tab& tab : tabs) {
+        sizes.push_back(ImGui::CalcTextSize(tab.title.data(), tab.title.data() + tab.title.size()));
+        words += sizes.back().x;
+    }
+    ImGui::PopFont();
     const float height = px(32), full = ImGui::GetContentRegionAvail().x;
-    const float width = std::floor(full / static_cast<float>(tabs.size()));
+    const float spare = (full - words) / static_cast<float>(tabs.size());  // negative: the words are cut
     const ImVec2 origin = ImGui::GetCursorScreenPos();
     ImDrawList* draw = ImGui::GetWindowDrawList();
     push_id(name);
     float x = origin.x;
-    for (const Tab& tab : tabs) {
-        push_id(tab.id);
-        ImGui::SetCursorScreenPos({x, origin.y});
-        if (ImGui::InvisibleButton("##tab", {width, height})) current = tab.id;
-        ImGui::PopID();
-        const bool chosen = tab.id == current, hovered = ImGui::IsItemHovered();
-        ImGui::PushFont(font_of(chosen ? Face::Strong : Face::Body));
-        const ImVec2 size = ImGui::CalcTextSize(tab.title.data(), tab.title.data() + tab.title.size());
-        const ImVec2 at{std::round(x + std::max(2.0f, (width - size.x) / 2)),
-                        std::round(origin.y + (height - size.y) / 2)};
-        ImGui::PushStyleColor(ImGuiCol_Text, chosen || hovered ? color::kText : color::kMuted);
-        ImGui::RenderTextEllipsis(draw, at, {x + width, at.y + size.y}, x + width, x + width,
-                                  tab.title.data(), tab.title.data() + tab.title.size(), &size);
-        ImGui::PopStyleColor();
-        ImGui::PopFont();
-        if (chosen)
-            draw->AddRectFilled({x + px(10), origin.y + height - px(2)},
-                                {x + width - px(10), origin.y + height}, color::kAccent, px(1));
-        finish_item(context, std::string(name) + "." + std::string(tab.id), tab.tooltip,
-                    std::max(0.0f, size.x - width));
+    for (std::size_t i = 0; i < tabs.size(); ++i) {
+        const float width = std::max(px(12), sizes[i].x + spare);
+        draw_tab(context, name, tabs[i], {x, origin.y, x + width, origin.y + height}, current);
         x += width;
     }
     ImGui::PopID();
@@ -389,7 +430,7 @@ void progress_bar(float fraction, const ImVec2& size) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::Dummy(size);
     ImDrawList* draw = ImGui::GetWindowDrawList();
-    draw->AddRectFilled(at, {at.x + size.x, at.y + size.y}, color::kField, size.y / 2);
+    draw->AddRectFilled(at, {at.x + size.x, at.y + size.y}, color::kButton, size.y / 2);
     const bool known = fraction >= 0.0f;
     const float filled = size.x * (known ? std::clamp(fraction, 0.0f, 1.0f) : 1.0f);
     if (filled >= 1.0f)

@@ -40,7 +40,9 @@ void end_region();
 /// Text that never leaves width (0: what is left of the line): cut with an ellipsis, whole in the tooltip.
 void text_line(PanelContext& context, std::string_view text, ImU32 text_color = color::kText,
                float width = 0.0f);
-void text_wrapped(std::string_view text, ImU32 text_color = color::kText, Face face = Face::Body);
+/// Text over several lines, width display units wide (0: what is left of the line).
+void text_wrapped(std::string_view text, ImU32 text_color = color::kText, Face face = Face::Body,
+                  float width = 0.0f);
 /// A quiet heading above a group of rows.
 void heading(std::string_view text);
 

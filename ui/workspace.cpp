@@ -114,7 +114,8 @@ void take_drop(PanelContext& context) {
 std::vector<Panel> builtin_panels() {
     return {
         {"presets", "Presets", "Materials to start from.", Side::Left, draw_presets_panel},
-        {"environments", "Light", "Panoramas that light the object.", Side::Left, draw_environments_panel},
+        {"environments", "Environments", "Panoramas that light the object.", Side::Left,
+         draw_environments_panel},
         {"meshes", "Meshes", "Shapes that wear the material.", Side::Left, draw_meshes_panel},
         {"material", "Material", "Values and maps of the material.", Side::Right, draw_material_panel},
         {"light", "Light", "The environment: turn it, expose it, show it.", Side::Right, draw_light_panel},
