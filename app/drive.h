@@ -1,0 +1,98 @@
+// Drives the window from a script, through the same mouse, keys and drops a person uses: for tests,
+// screenshots and demos.
+//
+// One command a line; '#' starts a comment; words with spaces stand in double quotes. LABEL is an item's name
+// as the panels record it ("menu.file.save", "material.roughness.slider"); what is scrolled out of sight is
+// scrolled into it.
+//
+//   click LABEL [at FX FY]      FX, FY: where inside it, 0…1; the middle otherwise. Also double-click,
+//   right-click, hover. drag LABEL DX DY            presses in its middle and lets go DX, DY further move X
+//   Y, wheel LINES       display coordinates type TEXT, key ctrl+z       into whatever has the keyboard drop
+//   PATH… [at LABEL]       files from outside resize W H, close           the window; close is its button
+//   wait idle                   until no job runs and nothing moves
+//   wait N frames | N seconds
+//   wait until EXPECTATION      at most a minute
+//   mark                        frames and views count from here
+//   expect EXPECTATION          dirty | clean | item LABEL | no item LABEL | KEY=VALUE (also != < <= > >= and
+//   ~ for contains) screenshot FILE.png quit                        at once, asking nothing; so does the
+//   script's end
+//
+// KEY: a parameter of the material ("roughness", "uv.scale"), "albedo.map", "albedo.state" (none, loading,
+// ok, missing, broken), or one of the names in drive_value(). A failed command ends the program with status 1
+// and names its line.
+#pragma once
+
+#include "app/editor_state.h"
+#include "app/window.h"
+#include "ui/recorder.h"
+
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace patina {
+
+struct DriveCommand {
+    int line = 0;
+    std::vector<std::string> words;  ///< the verb first
+};
+/// Throws std::runtime_error "NAME:LINE: what is wrong" for unknown verbs and wrong numbers of words.
+std::vector<DriveCommand> parse_drive(std::string_view text, const std::string& name);
+std::vector<DriveCommand> load_drive(const std::filesystem::path& file);
+
+/// What a script sees.
+struct DriveView {
+    const Editor& editor;
+    const ui::ItemRecorder& items;
+    bool idle = false;
+    std::uint64_t frames = 0;  ///< of the window
+    std::uint64_t views = 0;   ///< of the 3D view
+};
+/// A value by name as text; nullopt if there is none of that name.
+std::optional<std::string> drive_value(const DriveView& view, const std::string& key);
+/// What is wrong with the expectation, in words; empty if it holds.
+std::string drive_mismatch(const DriveView& view, const std::vector<std::string>& words);
+
+class Drive {
+public:
+    Drive(std::vector<DriveCommand> commands, std::string name);
+
+    /// Once a loop. Throws std::runtime_error "NAME:LINE: …" when a command fails.
+    void step(Window& window, const DriveView& view);
+    bool finished() const { return finished_; }
+    /// Wants step() again at once, without waiting for an event.
+    bool busy() const { return !finished_ && !waiting_; }
+    /// Where to write the next frame, if a screenshot was asked for.
+    std::optional<std::filesystem::path> take_screenshot();
+
+private:
+    /// One thing to do; false: not yet, ask again.
+    using Action = std::function<bool(Window&, const DriveView&)>;
+
+    void begin(const DriveCommand& command, Window& window, const DriveView& view);
+    void begin_pointer(const DriveCommand& command);
+    void begin_keys(const DriveCommand& command);
+    void begin_wait(const DriveCommand& command, const DriveView& view, double now_s);
+    void act(std::function<void(Window&)> action);  ///< then waits for the next frame
+    Action reach(const std::string& label, glm::vec2 fraction);
+    [[noreturn]] void fail(const std::string& what) const;
+
+    std::vector<DriveCommand> commands_;
+    std::string name_;
+    std::size_t next_ = 0;
+    std::deque<Action> actions_;
+    std::uint64_t frame_to_see_ = 0;
+    double began_s_ = 0.0;
+    double now_s_ = 0.0;
+    glm::vec2 mouse_{0.0f};
+    std::uint64_t marked_frames_ = 0, marked_views_ = 0;
+    std::optional<std::filesystem::path> screenshot_;
+    bool waiting_ = false;
+    bool finished_ = false;
+};
+
+}  // namespace patina

@@ -1,0 +1,354 @@
+#include "app/editor.h"
+
+#include "app/drive.h"
+#include "app/editor_state.h"
+#include "app/paths.h"
+#include "app/window.h"
+#include "materials/text_io.h"
+#include "renderer/core/image_io.h"
+#include "ui/workspace.h"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+namespace patina {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kFramesAfterEvent = 3;  ///< the one that shows it, and two in which popups and layouts settle
+constexpr double kCaret_s = 0.3;
+constexpr double kAnimation_s = 1.0 / 60.0;
+
+BakeCache bake_cache() { return {.folder = cache_folder() / "ibl"}; }
+
+/// What the picture was drawn from: it is drawn again when any of this differs.
+struct Drawn {
+    EnvironmentHandle environment;
+    MeshHandle mesh;
+    std::array<MapHandle, kMapSlots> maps;
+    Material material;
+    Camera camera;
+    View view;
+    bool operator==(const Drawn&) const = default;
+};
+Drawn signature_of(const Scene& scene) {
+    return {scene.environment, scene.mesh, scene.maps, scene.material, scene.camera, scene.view};
+}
+
+/// The loop around an Editor: window, viewport and script.
+class Loop {
+public:
+    Loop(const EditArgs& args, const Registry& registry);
+    int run();
+
+private:
+    bool open_what_was_named();
+    void take_events();
+    void think();
+    bool needs_frame() const;
+    void frame();
+    void draw_view(glm::ivec2 size_px);
+    void fill_status();
+    void fill_thumbnails();
+    void after_frame(const ui::PanelContext& context);
+    void drive();
+    double sleep_s() const;
+    bool idle() const;
+    void remember_window();
+
+    const EditArgs& args_;
+    Settings settings_;
+    std::vector<std::string> settings_notes_;
+    Window window_;
+    Renderer renderer_;
+    Jobs jobs_;
+    Editor editor_;
+    std::optional<Drive> drive_;
+    ui::ItemRecorder items_;
+
+    TargetHandle target_;
+    Drawn drawn_;
+    bool has_drawn_ = false;
+    std::uint64_t views_ = 0;
+    int frames_wanted_ = kFramesAfterEvent;
+    bool animating_ = false;
+    bool more_uploads_ = false;
+    std::uint64_t changes_shown_ = 0, thumbnails_shown_ = 0;
+    std::vector<Jobs::Status> jobs_shown_;
+    bool pending_shown_ = false;
+    double last_frame_s_ = 0.0;
+    std::string window_title_;
+    std::optional<ui::Drop> drop_;
+};
+
+WindowOptions window_options(const EditArgs& args, const Settings& settings) {
+    WindowOptions options;
+    options.size =
+        args.window_px.x > 0 ? args.window_px : glm::ivec2(settings.window_width, settings.window_height);
+    options.maximized = settings.maximized && args.window_px.x == 0;
+    options.driven = !args.drive_script.empty();
+    return options;
+}
+
+Settings with_arguments(Settings settings, const EditArgs& args) {
+    if (!args.mesh.empty()) settings.mesh = args.mesh;
+    if (!args.environment.empty()) settings.environment = args.environment;
+    return settings;
+}
+
+Loop::Loop(const EditArgs& args, const Registry& registry)
+    : args_(args),
+      settings_([this] {
+          ParsedSettings loaded = load_settings(state_folder());
+          settings_notes_ = std::move(loaded.notes);
+          return std::move(loaded.settings);
+      }()),
+      window_(window_options(args, settings_)),
+      jobs_(worker_count(), Window::wake),
+      editor_(registry, renderer_, jobs_, with_arguments(settings_, args)) {
+    if (!args.drive_script.empty())
+        drive_.emplace(load_drive(path_from_utf8(args.drive_script)), args.drive_script);
+    editor_.status.renderer = window_.description();
+    editor_.status.version = PATINA_VERSION;
+    for (const std::string& note : settings_notes_) log_line(editor_, ui::Severity::Warning, note);
+}
+
+/// False if the preset that was named cannot be had; the editor then shows why.
+bool Loop::open_what_was_named() {
+    if (args_.preset.empty() || args_.preset == "-") return true;
+    try {
+        return open_file(editor_, find_preset(args_.preset));
+    } catch (const std::exception& error) {
+        log_line(editor_, ui::Severity::Error, error.what());
+        return false;
+    }
+}
+
+void Loop::take_events() {
+    const WindowEvents events = window_.take_events();
+    if (events.any) frames_wanted_ = kFramesAfterEvent;
+    if (events.focus_gained) editor_.next_watch_s = 0.0;  // the artist comes back from a paint program
+    if (events.close) ask_quit(editor_);
+    for (const WindowEvents::Drop& drop : events.drops) {
+        if (!drop_) drop_ = ui::Drop{{}, drop.position};
+        for (const std::string& file : drop.files) drop_->files.push_back(file);
+    }
+}
+
+bool Loop::idle() const {
+    return frames_wanted_ == 0 && !animating_ && !more_uploads_ && jobs_.running().empty() &&
+           !editor_.reconciler.pending() && !editor_.thumbnails.busy() &&
+           !jobs_.is_running(editor_.autosave_job) && !drop_;
+}
+
+/// Everything that goes on without the interface.
+void Loop::think() {
+    jobs_.poll();
+    const double now_s = window_.time_s();
+    more_uploads_ = editor_.reconciler.update(editor_.document, editor_.opened);
+    const bool calm = jobs_.running().empty() && !editor_.reconciler.pending() && !editor_.ui.viewport_drag;
+    editor_.thumbnails.step(calm);
+    watch_files(editor_, now_s);
+    keep_work(editor_, now_s);
+    settle(editor_, true);
+}
+
+bool Loop::needs_frame() const {
+    if (window_.minimized()) return false;
+    return frames_wanted_ > 0 || animating_ || editor_.changes != changes_shown_ ||
+           editor_.thumbnails.version() != thumbnails_shown_ || jobs_.running() != jobs_shown_ ||
+           editor_.reconciler.pending() != pending_shown_ ||
+           (window_.wants_text() && window_.time_s() - last_frame_s_ >= kCaret_s) ||
+           (editor_.reconciler.drawable() &&
+            !(signature_of(editor_.reconciler.scene(editor_.camera, editor_.document.view)) == drawn_));
+}
+
+void Loop::draw_view(glm::ivec2 size_px) {
+    if (size_px.x <= 0 || size_px.y <= 0 || !editor_.reconciler.drawable()) return;
+    const Scene scene = editor_.reconciler.scene(editor_.camera, editor_.document.view);
+    Drawn wanted = signature_of(scene);
+    const bool resized = !target_ || Renderer::size_px(*target_) != size_px;
+    if (!resized && has_drawn_ && wanted == drawn_) return;
+    if (resized) {
+        target_ = renderer_.make_target(size_px);
+        frames_wanted_ = std::max(frames_wanted_, 1);  // this frame still shows the old one
+    }
+    renderer_.draw(scene, *target_);
+    drawn_ = std::move(wanted);
+    has_drawn_ = true;
+    ++views_;
+}
+
+void Loop::fill_status() {
+    ui::Status& status = editor_.status;
+    status.jobs.clear();
+    for (const Jobs::Status& job : jobs_shown_)
+        status.jobs.push_back(
+            {.id = job.id, .label = job.label, .progress = job.started ? job.progress : -1.0f});
+    status.title = document_title(editor_.document, editor_.file);
+    status.file = path_to_utf8(editor_.file.path);
+    status.dirty = is_dirty(editor_.document, editor_.file);
+    status.can_undo = editor_.history.can_undo(editor_.document);
+    status.can_redo = editor_.history.can_redo(editor_.document);
+    status.undo_what = editor_.history.undo_what(editor_.document);
+    status.redo_what = editor_.history.redo_what(editor_.document);
+    status.frames_rendered = views_;
+    const std::string title = status.title + (status.dirty ? " •" : "") + " – Patina";
+    if (title != window_title_) window_.set_title(title);
+    window_title_ = title;
+}
+
+void Loop::fill_thumbnails() {
+    Thumbnails& thumbnails = editor_.thumbnails;
+    for (ui::CatalogItem& item : editor_.catalog.presets)
+        item.thumbnail = thumbnails.texture(Thumbnails::Kind::Preset, item.id);
+    for (ui::CatalogItem& item : editor_.catalog.environments)
+        item.thumbnail = thumbnails.texture(Thumbnails::Kind::Environment, item.id);
+    for (ui::CatalogItem& item : editor_.catalog.meshes)
+        item.thumbnail = thumbnails.texture(Thumbnails::Kind::Mesh, item.id);
+    if (editor_.import_sheet)
+        for (ui::ImportRow& row : editor_.import_sheet->rows)
+            row.thumbnail = thumbnails.texture(Thumbnails::Kind::Picture, row.file);
+}
+
+void Loop::frame() {
+    frames_wanted_ = std::max(0, frames_wanted_ - 1);
+    changes_shown_ = editor_.changes;
+    thumbnails_shown_ = editor_.thumbnails.version();
+    jobs_shown_ = jobs_.running();
+    pending_shown_ = editor_.reconciler.pending();
+    last_frame_s_ = window_.time_s();
+    window_.follow_scale();
+    fill_status();
+    fill_thumbnails();
+
+    static const Camera kHome{};
+    ui::PanelContext context{.material = editor_.document.material,
+                             .view = editor_.document.view,
+                             .camera = editor_.camera,
+                             .mesh = editor_.document.mesh,
+                             .environment = editor_.document.environment,
+                             .ui = editor_.ui,
+                             .browser = editor_.browser,
+                             .import_sheet = editor_.import_sheet,
+                             .saved_material = editor_.file.saved,
+                             .saved_view = editor_.saved_view,
+                             .home_camera = kHome,
+                             .catalog = editor_.catalog,
+                             .status = editor_.status,
+                             .maps = editor_.reconciler.maps(),
+                             .mesh_info = editor_.reconciler.mesh_info(),
+                             .environment_info = editor_.reconciler.environment_info(),
+                             .panels = editor_.registry.panels};
+    if (target_) context.viewport.texture = Renderer::display_texture(*target_);
+    context.unsaved = editor_.unsaved ? &*editor_.unsaved : nullptr;
+    context.recovery = editor_.recovery_question ? &*editor_.recovery_question : nullptr;
+    const std::optional<ui::Drop> drop = std::exchange(drop_, std::nullopt);
+    context.drop = drop ? &*drop : nullptr;
+    context.scale = window_.interface_scale();
+    context.recorder = &items_;
+
+    const TargetHandle shown = target_;  // keeps its texture alive until the interface is drawn
+    items_.items.clear();
+    window_.begin_frame();
+    ui::draw_workspace(context);
+    after_frame(context);
+    const std::optional<fs::path> screenshot = drive_ ? drive_->take_screenshot() : std::nullopt;
+    Image picture;
+    window_.end_frame(screenshot ? &picture : nullptr);
+    if (screenshot) save_image(*screenshot, picture);
+}
+
+void Loop::after_frame(const ui::PanelContext& context) {
+    carry_out(editor_, context.requests);
+    settle(editor_, context.result.item_active || context.result.viewport_active);
+    editor_.reconciler.update(editor_.document, editor_.opened);
+    draw_view(context.result.viewport_size_px);
+    animating_ = context.result.wants_redraw;
+    if (editor_.clipboard) window_.set_clipboard(*std::exchange(editor_.clipboard, std::nullopt));
+}
+
+void Loop::drive() {
+    if (!drive_) return;
+    drive_->step(window_, {editor_, items_, idle() && !needs_frame(), window_.frames(), views_});
+    if (drive_->finished()) editor_.quit = true;
+}
+
+double Loop::sleep_s() const {
+    if (more_uploads_ || (drive_ && drive_->busy())) return 0.0;
+    if (needs_frame()) return 0.0;
+    double wait = next_errand_s(editor_, window_.time_s());
+    if (window_.wants_text()) wait = std::min(wait, kCaret_s);
+    if (editor_.thumbnails.busy()) wait = std::min(wait, kAnimation_s);
+    if (drive_) wait = std::min(wait, 0.02);
+    return std::max(wait, 0.001);
+}
+
+void Loop::remember_window() {
+    Settings& settings = editor_.settings;
+    const float scale = window_.interface_scale();
+    settings.maximized = window_.maximized();
+    if (!settings.maximized) {
+        settings.window_width = int(float(window_.size().x) / scale);
+        settings.window_height = int(float(window_.size().y) / scale);
+    }
+    settings.mesh = editor_.document.mesh;
+    settings.environment = editor_.document.environment;
+    settings.library_width = editor_.ui.library_width;
+    settings.inspector_width = editor_.ui.inspector_width;
+    settings.drawer_height = editor_.ui.drawer_height;
+    settings.show_library = editor_.ui.show_library;
+    settings.show_inspector = editor_.ui.show_inspector;
+    if (settings == settings_) return;
+    save_settings(state_folder(), settings);
+}
+
+int Loop::run() {
+    fill_catalog(editor_);
+    read_presets(editor_);
+    open_what_was_named();
+    offer_recovery(editor_);
+    while (!editor_.quit) {
+        window_.wait(sleep_s());
+        drive();
+        take_events();
+        think();
+        if (needs_frame()) frame();
+    }
+    try {
+        remember_window();
+    } catch (const std::exception& error) {  // closing must not fail for a window size
+        log_line(editor_, ui::Severity::Warning, error.what());
+    }
+    return 0;
+}
+
+}  // namespace
+
+Editor::Editor(const Registry& parts, Renderer& gpu, Jobs& workers, Settings remembered)
+    : registry(parts),
+      renderer(gpu),
+      jobs(workers),
+      settings(std::move(remembered)),
+      document{.mesh = settings.mesh, .environment = settings.environment},
+      history(document),
+      reconciler(gpu, parts, workers,
+                 {.bakes = bake_cache(),
+                  .log = [this](ui::Severity severity,
+                                const std::string& text) { log_line(*this, severity, text); }}),
+      thumbnails(gpu, parts, workers, {.folder = cache_folder() / "thumbnails", .bakes = bake_cache()}),
+      recovery(state_folder()),
+      autosave_seen(document) {
+    ui.library_width = settings.library_width;
+    ui.inspector_width = settings.inspector_width;
+    ui.drawer_height = settings.drawer_height;
+    ui.show_library = settings.show_library;
+    ui.show_inspector = settings.show_inspector;
+}
+
+int run_editor(const EditArgs& args, const Registry& registry) { return Loop(args, registry).run(); }
+
+}  // namespace patina

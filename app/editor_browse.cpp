@@ -1,0 +1,119 @@
+#include "app/editor_state.h"
+#include "app/file_dialog.h"
+#include "app/paths.h"
+#include "app/reconcile_load.h"
+#include "materials/params.h"
+#include "materials/text_io.h"
+
+#include <algorithm>
+#include <exception>
+
+namespace patina {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kMaxPictureSide = 16384;
+
+/// Where a person would look first for that purpose.
+fs::path likely_folder(const Editor& editor) {
+    const ui::FileBrowser& browser = editor.browser;
+    std::error_code ignored;
+    const auto usable = [&](const fs::path& folder) {
+        return !folder.empty() && fs::is_directory(folder, ignored);
+    };
+    if (browser.purpose == ui::BrowserPurpose::LocateMap) {
+        const fs::path missing = utf8_to_path(*map_of(editor.document.material, browser.slot).map);
+        for (fs::path folder = missing.parent_path(); folder.has_relative_path();
+             folder = folder.parent_path())
+            if (usable(folder)) return folder;
+    }
+    const fs::path last = utf8_to_path(editor.settings.last_folder);
+    if (browser.purpose == ui::BrowserPurpose::SavePreset && !editor.file.path.empty()) {
+        const fs::path own = editor.file.path.parent_path();
+        if (usable(own) && own != share_folder() / "presets") return own;
+    }
+    if (usable(last)) return last;
+    return home_folder();
+}
+
+std::string file_name_from(const std::string& title) {
+    std::string name = title;
+    std::replace_if(
+        name.begin(), name.end(),
+        [](char c) {
+            return static_cast<unsigned char>(c) < 32 ||
+                   std::string_view("/\\:*?\"<>|").find(c) != std::string_view::npos;
+        },
+        '_');
+    return name.empty() ? "material" : name;
+}
+
+}  // namespace
+
+void list_folder(Editor& editor, const std::string& folder) {
+    const FolderListing listing = list_files(folder.empty() ? likely_folder(editor) : utf8_to_path(folder));
+    ui::FileBrowser& browser = editor.browser;
+    browser.folder = listing.folder;
+    browser.entries = listing.entries;
+    browser.error = listing.error;
+    browser.selected.clear();
+    std::vector<ui::BrowserPlace> extra{{"Patina's presets", path_to_utf8(share_folder() / "presets")}};
+    for (const std::string& file : editor.settings.recent) {
+        const fs::path place = utf8_to_path(file).parent_path();
+        extra.push_back({utf8_from_path(place.filename()), path_to_utf8(place)});
+    }
+    browser.places = browser_places(extra);
+    if (browser.file_name.empty() && browser.purpose == ui::BrowserPurpose::SavePreset)
+        browser.file_name = file_name_from(document_title(editor.document, editor.file)) + ".json";
+    if (browser.file_name.empty() && browser.purpose == ui::BrowserPurpose::ExportRender)
+        browser.file_name = file_name_from(document_title(editor.document, editor.file)) + ".png";
+    if (listing.error.empty()) editor.settings.last_folder = listing.folder;
+    ++editor.changes;
+}
+
+void make_folder(Editor& editor, const std::string& folder) {
+    std::error_code failure;
+    fs::create_directories(utf8_to_path(folder), failure);
+    if (failure)
+        log_line(editor, ui::Severity::Error, folder + " cannot be made: " + failure.message() + ".");
+    list_folder(editor, failure ? editor.browser.folder : folder);
+}
+
+void open_browser(Editor& editor, ui::BrowserPurpose purpose) {
+    editor.browser = {.open = true, .purpose = purpose};
+    list_folder(editor, "");
+}
+
+void export_picture(Editor& editor, const ui::request::ExportRender& request) {
+    try {
+        const fs::path file = utf8_to_path(request.file);
+        const ImageExporter& exporter = image_exporter(editor.registry, file);
+        if (!editor.reconciler.drawable())
+            throw std::runtime_error("There is no picture yet; wait for the light and export again.");
+        const glm::ivec2 size(std::clamp(request.width, 1, kMaxPictureSide),
+                              std::clamp(request.height, 1, kMaxPictureSide));
+        const TargetHandle target = editor.renderer.make_target(size);
+        editor.renderer.draw(editor.reconciler.scene(editor.camera, editor.document.view), *target);
+        const bool radiance = exporter.extensions.front() == "exr";
+        auto picture = std::make_shared<Image>(radiance ? editor.renderer.read_radiance(*target)
+                                                        : editor.renderer.read_display(*target));
+        ImageMetadata metadata{{"Software", "Patina"},
+                               {"Title", document_title(editor.document, editor.file)},
+                               {"Environment", editor.document.environment}};
+        editor.jobs.start(
+            "Writing " + short_name(request.file),
+            [&editor, &exporter, file, picture, metadata](JobContext&) -> Jobs::Done {
+                exporter.save(file, *picture, metadata);
+                return [&editor, file] {
+                    log_line(editor, ui::Severity::Info, "Exported " + utf8_from_path(file.filename()) + ".");
+                };
+            },
+            [&editor](const std::string& error) { log_line(editor, ui::Severity::Error, error); });
+    } catch (const std::exception& error) {
+        log_line(editor, ui::Severity::Error, error.what());
+    }
+}
+
+}  // namespace patina

@@ -1,0 +1,107 @@
+#include "app/editor_state.h"
+#include "app/file_dialog.h"
+#include "app/paths.h"
+#include "app/reconcile_load.h"
+#include "materials/params.h"
+#include "materials/text_io.h"
+
+namespace patina {
+
+namespace {
+
+template <class... Ts>
+struct Overloaded : Ts... {
+    using Ts::operator()...;
+};
+template <class... Ts>
+Overloaded(Ts...) -> Overloaded<Ts...>;
+
+namespace ask_for = ui::request;
+
+void step(Editor& editor, const std::optional<Document>& document, const std::string& what,
+          const char* verb) {
+    if (!document) return;
+    editor.document = *document;
+    say_status(editor, what.empty() ? std::string(verb) + "." : std::string(verb) + ": " + what + ".");
+}
+
+void clear_map(Editor& editor, MapSlot slot) { map_of(editor.document.material, slot).map->clear(); }
+
+void cancel_job(Editor& editor, Jobs::Id job) {
+    if (!editor.reconciler.cancel(job)) editor.jobs.stop(job);
+    log_line(editor, ui::Severity::Info, "Cancelled.");
+}
+
+void save_as(Editor& editor, const std::string& file) {
+    editor.browser.open = false;
+    save_file(editor, utf8_to_path(file));
+}
+
+}  // namespace
+
+void carry_out(Editor& editor, const ui::Requests& requests) {
+    const Overloaded verbs{
+        [&](const ask_for::New&) { ask_new(editor); },
+        [&](const ask_for::Open& r) { ask_open(editor, r.file); },
+        [&](const ask_for::Save&) { save(editor); },
+        [&](const ask_for::SaveAs& r) { save_as(editor, r.file); },
+        [&](const ask_for::Revert&) { revert(editor); },
+        [&](const ask_for::Undo&) {
+            const std::string what = editor.history.undo_what(editor.document);
+            step(editor, editor.history.undo(editor.document), what, "Undone");
+        },
+        [&](const ask_for::Redo&) {
+            const std::string what = editor.history.redo_what(editor.document);
+            step(editor, editor.history.redo(editor.document), what, "Redone");
+        },
+        [&](const ask_for::Quit&) { ask_quit(editor); },
+        [&](const ask_for::AnswerUnsaved& r) { answer_unsaved(editor, r.choice); },
+        [&](const ask_for::AnswerRecovery& r) { answer_recovery(editor, r.recovery); },
+        [&](const ask_for::ClearRecent&) {
+            editor.settings.recent.clear();
+            fill_catalog(editor);
+        },
+        [&](const ask_for::AssignMap& r) { assign_map(editor, r.slot, r.file); },
+        [&](const ask_for::ClearMap& r) { clear_map(editor, r.slot); },
+        [&](const ask_for::ReloadMap& r) {
+            editor.reconciler.reload(*map_of(editor.document.material, r.slot).map);
+        },
+        [&](const ask_for::LocateMap& r) { locate_map(editor, r.slot, r.file); },
+        [&](const ask_for::Reveal& r) {
+            if (!reveal_in_file_manager(utf8_to_path(r.path)))
+                log_line(editor, ui::Severity::Warning,
+                         "No file manager could be started to show " + r.path + ".");
+        },
+        [&](const ask_for::Dropped& r) { take_dropped(editor, r); },
+        [&](const ask_for::ImportMaps& r) { propose_maps(editor, r.files); },
+        [&](const ask_for::ApplyImport&) { apply_import_sheet(editor); },
+        [&](const ask_for::CancelImport&) { editor.import_sheet.reset(); },
+        [&](const ask_for::LoadEnvironment& r) { use_environment(editor, r.file); },
+        [&](const ask_for::LoadMesh& r) { use_mesh(editor, r.file); },
+        [&](const ask_for::ExportRender& r) { export_picture(editor, r); },
+        [&](const ask_for::CancelJob& r) { cancel_job(editor, r.id); },
+        [&](const ask_for::ClearLog&) { editor.status.log.clear(); },
+        [&](const ask_for::CopyText& r) { editor.clipboard = r.text; },
+        [&](const ask_for::ListFolder& r) { list_folder(editor, r.folder); },
+        [&](const ask_for::MakeFolder& r) { make_folder(editor, r.folder); },
+    };
+    for (const ui::Request& request : requests) std::visit(verbs, request);
+    if (!requests.empty()) ++editor.changes;
+}
+
+void settle(Editor& editor, bool item_held) {
+    if (editor.history.record(editor.document, item_held)) ++editor.changes;
+    // Light or a mesh that could not be had: back to what is shown, and no undo step for it.
+    const auto fall_back = [&](const std::optional<std::string>& shown, std::string& id,
+                               const char* otherwise) {
+        if (!shown || id == otherwise) return;
+        id = shown->empty() ? otherwise : *shown;
+        editor.history.amend(editor.document);
+        fill_catalog(editor);
+    };
+    fall_back(editor.reconciler.fallback_environment(), editor.document.environment, "studio");
+    fall_back(editor.reconciler.fallback_mesh(), editor.document.mesh, "sphere");
+    drop_stale_wait(editor);
+}
+
+}  // namespace patina

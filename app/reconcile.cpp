@@ -1,0 +1,454 @@
+#include "app/reconcile.h"
+
+#include "app/reconcile_load.h"
+#include "app/reconcile_supply.h"
+#include "materials/params.h"
+#include "materials/text_io.h"
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <map>
+#include <utility>
+
+namespace patina {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kUploadPortion = std::size_t{4} << 20;  ///< bytes of a map at a time
+
+struct HeldMap {
+    MapHandle handle;
+    MapHandle thumbnail;
+    ui::MapStatus status;  ///< of a loaded map; without a texture id
+};
+struct HeldMesh {
+    MeshHandle handle;
+    std::shared_ptr<const Mesh> mesh;  ///< for adding tangents later
+    ui::MeshInfo info;
+};
+struct HeldEnvironment {
+    EnvironmentHandle handle;
+    ui::EnvironmentInfo info;
+};
+
+/// A key is the file or id, then the version after a mark that no path ends in.
+constexpr char kVersionMark = '\n';
+std::string id_of(const std::string& key) { return key.substr(0, key.find(kVersionMark)); }
+
+std::uint64_t bytes_of(const Image& image) { return image.bytes.size(); }
+std::uint64_t bytes_of(const MapLevels& map) {
+    std::uint64_t bytes = 0;
+    for (const Image& level : map.levels) bytes += bytes_of(level);
+    return bytes;
+}
+std::uint64_t bytes_of(const Mesh& mesh) {
+    return mesh.vertices.size() * sizeof(Vertex) + mesh.indices.size() * sizeof(std::uint32_t);
+}
+std::uint64_t bytes_of(const ReadyEnvironment& ready) {
+    std::uint64_t texels = ready.baked.irradiance.texels.size();
+    for (const PanoramaLevels::Level& level : ready.panorama.levels) texels += level.rgba.size() / 4;
+    for (const PrefilteredLevel& level : ready.baked.levels) texels += level.cube.texels.size();
+    return texels * 8;  // half floats, four channels
+}
+
+/// Everything of one slot, value included.
+void copy_slot(const Material& from, Material& to, MapSlot slot) {
+    switch (slot) {
+        case MapSlot::Albedo:
+            to.albedo = from.albedo;
+            break;
+        case MapSlot::Roughness:
+            to.roughness = from.roughness;
+            break;
+        case MapSlot::Metallic:
+            to.metallic = from.metallic;
+            break;
+        case MapSlot::Ao:
+            to.ao = from.ao;
+            break;
+        case MapSlot::Normal:
+            to.normal = from.normal;
+            break;
+        case MapSlot::Emission:
+            to.emission = from.emission;
+            break;
+    }
+}
+
+}  // namespace
+
+struct Reconciler::State {
+    Renderer& renderer;
+    const Registry& registry;
+    Jobs& jobs;
+    ReconcileOptions options;
+
+    Supply<HeldMap> maps;
+    Supply<HeldMesh> meshes;
+    Supply<HeldEnvironment> environments;
+    MapHandle placeholder;
+    MapHandle placeholder_thumbnail;
+    std::deque<std::function<bool()>> uploads;  ///< each does a portion; true when it is done
+    std::map<std::string, int> versions;        ///< of files: how often they were read again
+    std::vector<std::pair<std::string, FileStamp>> files_read;
+    ReconcileCounts counts;
+
+    // The picture: what was complete last.
+    Material material;
+    std::array<MapHandle, kMapSlots> handles;
+    std::uint64_t opened = 0;
+    bool presented = false;
+    std::array<ui::MapStatus, kMapSlots> status;
+    ui::MeshInfo no_mesh;
+    ui::EnvironmentInfo no_environment;
+
+    std::string versioned(const std::string& id) const {
+        const auto found = versions.find(id);
+        return id + kVersionMark + std::to_string(found == versions.end() ? 0 : found->second);
+    }
+    void want(const Document& document);
+    void start_missing(const Document& document);
+    Jobs::Id start_map(const std::string& key, const MapRequest& request);
+    Jobs::Id start_mesh(const std::string& key);
+    Jobs::Id start_environment(const std::string& key);
+    template <class T, class Ready, class Upload>
+    void expect(Supply<T>& supply, const std::string& key, std::shared_ptr<Ready> ready, Upload upload);
+    template <class T>
+    std::function<void(const std::string&)> when_failed(Supply<T>& supply, const std::string& key,
+                                                        std::shared_ptr<FileStamp> stamp);
+    void note(const std::string& id, const std::vector<std::string>& notes) const;
+    bool slot_ready(const Document& document, int slot) const;
+    MapHandle handle_for(const Document& document, int slot) const;
+    void present(const Document& document, std::uint64_t opened_now);
+    void report(const Document& document);
+    bool run_uploads();
+};
+
+namespace {
+constexpr char kTangentMark = 't';
+bool wants_tangents(const std::string& mesh_key) {
+    return !mesh_key.empty() && mesh_key.back() == kTangentMark;
+}
+
+/// Which pixels a slot's file becomes: the same file may be wanted as colour and as data.
+std::string map_key(const std::string& versioned_file, const MapRequest& request) {
+    const char* kind = request.kind == MapKind::Normal           ? " normal"
+                       : request.kind == MapKind::Data           ? " data"
+                       : request.color_space == ColorSpace::Srgb ? " srgb"
+                                                                 : " linear";
+    return versioned_file + kind;
+}
+}  // namespace
+
+void Reconciler::State::want(const Document& document) {
+    for (int i = 0; i < kMapSlots; ++i) {
+        const MapRequest request = map_request(document.material, MapSlot(i));
+        maps.want(i, request.file.empty() ? std::string{} : map_key(versioned(request.file), request));
+    }
+    const bool tangents = !document.material.normal.map.empty();
+    meshes.want(0, versioned(document.mesh) + (tangents ? " t" : ""));
+    environments.want(0, versioned(document.environment));
+}
+
+void Reconciler::State::note(const std::string& id, const std::vector<std::string>& notes) const {
+    for (const std::string& each : notes) options.log(ui::Severity::Info, short_name(id) + ": " + each);
+}
+
+/// Queues the main thread's part of a finished job: upload(ready) does a portion and is true when it is done.
+template <class T, class Ready, class Upload>
+void Reconciler::State::expect(Supply<T>& supply, const std::string& key, std::shared_ptr<Ready> ready,
+                               Upload upload) {
+    note(id_of(key), ready->notes);
+    uploads.push_back([this, &supply, key, ready = std::move(ready), upload] {
+        if (!supply.is_loading(key)) return true;
+        try {
+            return upload(*ready);
+        } catch (const std::exception& error) {  // the driver has no memory left, or does not know the format
+            options.log(ui::Severity::Error, error.what());
+            supply.failed(key, error.what());
+            return true;
+        }
+    });
+}
+
+template <class T>
+std::function<void(const std::string&)> Reconciler::State::when_failed(Supply<T>& supply,
+                                                                       const std::string& key,
+                                                                       std::shared_ptr<FileStamp> stamp) {
+    return [this, &supply, key, stamp](const std::string& error) {
+        files_read.emplace_back(id_of(key), *stamp);
+        if (supply.is_loading(key)) options.log(ui::Severity::Error, error);
+        supply.failed(key, error);
+    };
+}
+
+Jobs::Id Reconciler::State::start_map(const std::string& key, const MapRequest& request) {
+    ++counts.maps_loaded;
+    const auto stamp = std::make_shared<FileStamp>();
+    return jobs.start(
+        "Loading " + short_name(request.file),
+        [this, key, request, stamp](JobContext&) -> Jobs::Done {
+            *stamp = stamp_of(utf8_to_path(request.file));
+            const auto ready = std::make_shared<ReadyMap>(load_map(registry, request));
+            return [this, key, ready, stamp] {
+                files_read.emplace_back(id_of(key), *stamp);
+                const std::uint64_t bytes = bytes_of(ready->levels);
+                const auto upload = std::make_shared<MapUpload>(std::move(ready->levels));
+                expect(maps, key, ready, [this, key, upload, bytes](const ReadyMap& map) {
+                    if (!upload->step(kUploadPortion)) return false;
+                    HeldMap held{.handle = upload->finish(),
+                                 .thumbnail = renderer.upload_thumbnail(map.thumbnail)};
+                    held.status = {.state = ui::MapState::Ok,
+                                   .width = map.width,
+                                   .height = map.height,
+                                   .channels = map.channels,
+                                   .bits = map.bits,
+                                   .file_bytes = map.file_bytes};
+                    maps.finished(key, std::move(held), bytes);
+                    return true;
+                });
+            };
+        },
+        when_failed(maps, key, stamp));
+}
+
+Jobs::Id Reconciler::State::start_mesh(const std::string& key) {
+    ++counts.meshes_loaded;
+    const std::string id = id_of(key);
+    std::shared_ptr<const Mesh> bare;  // the same without tangents, if it is there
+    if (wants_tangents(key))
+        if (const auto held = meshes.in_memory(versioned(id))) bare = held->mesh;
+    struct Ready {
+        std::shared_ptr<Mesh> mesh;
+        std::vector<std::string> notes;
+    };
+    const auto stamp = std::make_shared<FileStamp>();
+    return jobs.start((bare ? "Computing tangents of " : "Loading ") + short_name(id),
+                      [this, key, id, bare, stamp](JobContext&) -> Jobs::Done {
+                          *stamp = stamp_of(utf8_to_path(id));
+                          const auto ready = std::make_shared<Ready>();
+                          ready->mesh = std::make_shared<Mesh>(bare ? *bare : load_mesh_part(registry, id));
+                          if (!bare) ready->notes = ready->mesh->notes;
+                          if (wants_tangents(key) && !ready->mesh->has_tangents) make_tangents(*ready->mesh);
+                          return [this, key, ready, stamp] {
+                              files_read.emplace_back(id_of(key), *stamp);
+                              expect(meshes, key, ready, [this, key](Ready& loaded) {
+                                  const Mesh& mesh = *loaded.mesh;
+                                  HeldMesh held{.handle = renderer.upload_mesh(mesh), .mesh = loaded.mesh};
+                                  held.info = {
+                                      .title = mesh.name.empty() ? short_name(id_of(key)) : mesh.name,
+                                      .triangles = mesh.indices.size() / 3,
+                                      .vertices = mesh.vertices.size(),
+                                      .has_uvs = mesh.has_uvs,
+                                      .notes = mesh.notes};
+                                  meshes.finished(key, std::move(held), 2 * bytes_of(mesh));
+                                  return true;
+                              });
+                          };
+                      },
+                      when_failed(meshes, key, stamp));
+}
+
+Jobs::Id Reconciler::State::start_environment(const std::string& key) {
+    const std::string id = id_of(key);
+    const auto stamp = std::make_shared<FileStamp>();
+    return jobs.start(
+        "Baking " + short_name(id),
+        [this, key, id, stamp](JobContext& job) -> Jobs::Done {
+            *stamp = stamp_of(utf8_to_path(id));
+            const BakeControl control{jobs.parallel_for(), job.progress, job.stop};
+            auto baked = load_and_bake(registry, id, options.bake_settings, options.bakes, control);
+            if (!baked) return {};
+            const auto ready = std::make_shared<ReadyEnvironment>(std::move(*baked));
+            return [this, key, ready, stamp] {
+                files_read.emplace_back(id_of(key), *stamp);
+                ++(ready->from_disk ? counts.environments_from_disk : counts.environments_baked);
+                expect(environments, key, ready, [this, key](ReadyEnvironment& light) {
+                    HeldEnvironment held{.handle = renderer.upload_environment(light.panorama, light.baked)};
+                    held.info = {.title = light.title,
+                                 .width = light.width,
+                                 .height = light.height,
+                                 .max_radiance = light.max_radiance,
+                                 .notes = light.notes};
+                    environments.finished(key, std::move(held), bytes_of(light));
+                    return true;
+                });
+            };
+        },
+        when_failed(environments, key, stamp));
+}
+
+void Reconciler::State::start_missing(const Document& document) {
+    const auto stop = [this](Jobs::Id id) { jobs.stop(id); };
+    counts.environments_from_memory +=
+        environments.update([this](const std::string& key) { return start_environment(key); }, stop);
+    counts.meshes_from_memory +=
+        meshes.update([this](const std::string& key) { return start_mesh(key); }, stop);
+    counts.maps_from_memory += maps.update(
+        [&](const std::string& key) {
+            int slot = 0;
+            while (maps.slot(slot).keys.wanted != key) ++slot;
+            return start_map(key, map_request(document.material, MapSlot(slot)));
+        },
+        stop);
+}
+
+bool Reconciler::State::slot_ready(const Document& document, int slot) const {
+    if (!maps.slot(slot).keys.ready()) return false;
+    // A normal map is shaded along tangents: it waits for a mesh that has them.
+    const bool needs_tangents = MapSlot(slot) == MapSlot::Normal && !document.material.normal.map.empty();
+    return !needs_tangents || meshes.slot(0).keys.ready() || wants_tangents(meshes.slot(0).keys.shown);
+}
+
+/// The wanted map; the last good one of the same file while that is broken; else the placeholder.
+MapHandle Reconciler::State::handle_for(const Document& document, int slot) const {
+    const auto& [keys, value, error] = maps.slot(slot);
+    if (keys.wanted.empty()) return {};
+    if (keys.wanted == keys.shown && value) return value->handle;
+    const bool same_file = value && id_of(keys.shown) == *map_of(document.material, MapSlot(slot)).map;
+    return same_file ? value->handle : placeholder;
+}
+
+void Reconciler::State::present(const Document& document, std::uint64_t opened_now) {
+    std::array<bool, kMapSlots> ready;
+    for (int i = 0; i < kMapSlots; ++i) ready[i] = slot_ready(document, i);
+    const bool all = std::all_of(ready.begin(), ready.end(), [](bool each) { return each; });
+    if (!all && presented && opened_now != opened) return;  // another document: all of it or nothing
+    Material next = document.material;
+    for (int i = 0; i < kMapSlots; ++i) {
+        if (ready[i])
+            handles[i] = handle_for(document, i);
+        else
+            copy_slot(material, next, MapSlot(i));
+    }
+    material = std::move(next);
+    presented = true;
+    opened = opened_now;
+}
+
+void Reconciler::State::report(const Document& document) {
+    for (int i = 0; i < kMapSlots; ++i) {
+        const auto& [keys, value, error] = maps.slot(i);
+        ui::MapStatus next;
+        if (keys.wanted.empty()) {
+            status[i] = {};
+            continue;
+        }
+        const bool loaded = keys.wanted == keys.shown && value.has_value();
+        if (loaded) next = value->status;
+        next.full_path = *map_of(document.material, MapSlot(i)).map;
+        if (loaded) {
+            next.thumbnail = Renderer::texture_of(*value->thumbnail);
+        } else if (keys.wanted == keys.failed) {
+            std::error_code ignored;
+            const bool there = std::filesystem::exists(utf8_to_path(next.full_path), ignored);
+            next.state = there ? ui::MapState::Broken : ui::MapState::Missing;
+            next.message = error;
+            next.thumbnail = Renderer::texture_of(*placeholder_thumbnail);
+        } else {
+            next.state = ui::MapState::Loading;
+        }
+        status[i] = std::move(next);
+    }
+}
+
+bool Reconciler::State::run_uploads() {
+    const auto begin = Clock::now();
+    const std::chrono::duration<double> budget(options.upload_budget_s);
+    while (!uploads.empty() && Clock::now() - begin < budget)
+        if (uploads.front()()) uploads.pop_front();
+    return !uploads.empty();
+}
+
+Reconciler::Reconciler(Renderer& renderer, const Registry& registry, Jobs& jobs, ReconcileOptions options)
+    : state_(new State{.renderer = renderer,
+                       .registry = registry,
+                       .jobs = jobs,
+                       .options = options,
+                       .maps = {kMapSlots, options.map_bytes},
+                       .meshes = {1, options.mesh_bytes},
+                       .environments = {1, options.environment_bytes}}) {
+    const Image picture = make_placeholder_map();
+    state_->placeholder = renderer.upload_map(make_map_levels(picture, MapKind::Color, ColorSpace::Srgb));
+    state_->placeholder_thumbnail = renderer.upload_thumbnail(picture);
+}
+
+Reconciler::~Reconciler() = default;
+
+bool Reconciler::update(const Document& document, std::uint64_t opened) {
+    const bool more = state_->run_uploads();
+    state_->want(document);
+    state_->start_missing(document);
+    state_->present(document, opened);
+    state_->report(document);
+    return more;
+}
+
+Scene Reconciler::scene(const Camera& camera, const View& view) const {
+    Scene scene{.maps = state_->handles, .material = state_->material, .camera = camera, .view = view};
+    if (const auto& light = state_->environments.slot(0).value) scene.environment = light->handle;
+    if (const auto& mesh = state_->meshes.slot(0).value) scene.mesh = mesh->handle;
+    return scene;
+}
+
+bool Reconciler::drawable() const {
+    return state_->environments.slot(0).value && state_->meshes.slot(0).value && state_->presented;
+}
+
+bool Reconciler::pending() const {
+    return state_->maps.pending() || state_->meshes.pending() || state_->environments.pending() ||
+           !state_->uploads.empty();
+}
+
+const std::array<ui::MapStatus, kMapSlots>& Reconciler::maps() const { return state_->status; }
+
+const ui::MeshInfo& Reconciler::mesh_info() const {
+    const auto& slot = state_->meshes.slot(0);
+    return slot.value && id_of(slot.keys.shown) == id_of(slot.keys.wanted) ? slot.value->info
+                                                                           : state_->no_mesh;
+}
+
+const ui::EnvironmentInfo& Reconciler::environment_info() const {
+    const auto& slot = state_->environments.slot(0);
+    return slot.value && id_of(slot.keys.shown) == id_of(slot.keys.wanted) ? slot.value->info
+                                                                           : state_->no_environment;
+}
+
+const ReconcileCounts& Reconciler::counts() const { return state_->counts; }
+
+std::vector<std::pair<std::string, FileStamp>> Reconciler::take_files_read() {
+    return std::exchange(state_->files_read, {});
+}
+
+namespace {
+template <class T>
+std::optional<std::string> fallback(const Supply<T>& supply) {
+    const SlotKeys& keys = supply.slot(0).keys;
+    if (keys.wanted != keys.failed || id_of(keys.shown) == id_of(keys.wanted)) return std::nullopt;
+    return id_of(keys.shown);
+}
+
+template <class T>
+bool cancel_in(Supply<T>& supply, Jobs& jobs, Jobs::Id job) {
+    const std::optional<std::string> key = supply.key_of(job);
+    if (!key) return false;
+    jobs.stop(job);
+    supply.failed(*key, "Loading " + short_name(id_of(*key)) + " was cancelled.");
+    return true;
+}
+}  // namespace
+
+std::optional<std::string> Reconciler::fallback_environment() const { return fallback(state_->environments); }
+std::optional<std::string> Reconciler::fallback_mesh() const { return fallback(state_->meshes); }
+
+bool Reconciler::cancel(Jobs::Id job) {
+    return cancel_in(state_->environments, state_->jobs, job) ||
+           cancel_in(state_->meshes, state_->jobs, job) || cancel_in(state_->maps, state_->jobs, job);
+}
+
+void Reconciler::reload(const std::string& file) { ++state_->versions[file]; }
+
+}  // namespace patina

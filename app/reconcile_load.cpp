@@ -1,0 +1,137 @@
+#include "app/reconcile_load.h"
+
+#include "materials/material_io.h"
+#include "materials/params.h"
+#include "materials/text_io.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace patina {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kSamplesPerSide =
+    4;  ///< of a small picture's pixel: enough against glitter, cheap for 8k sources
+constexpr float kDecodeShare = 0.1f, kBakeShare = 0.85f;  ///< of the progress
+
+int bits_of(PixelType type) { return int(bytes_per_channel(type)) * 8; }
+
+/// Nearly leaves mid-grey where it is and rolls lamps off to white.
+float display_value(float linear) { return linear_to_srgb(linear / (1.0f + 0.25f * linear)); }
+
+}  // namespace
+
+MapRequest map_request(const Material& material, MapSlot slot) {
+    const ConstMapRef row = map_of(material, slot);
+    return {.file = *row.map,
+            .kind = map_kind(slot),
+            .color_space = row.color_space ? *row.color_space : ColorSpace::Linear};
+}
+
+ReadyMap load_map(const Registry& registry, const MapRequest& request, int max_side) {
+    if (is_web_address(request.file))
+        throw std::runtime_error(
+            request.file +
+            " is a web address, and nothing is fetched: save the picture and locate the file.");
+    const fs::path file = utf8_to_path(request.file);
+    std::error_code ignored;
+    if (!fs::exists(file, ignored))
+        throw std::runtime_error(request.file + ": there is no such file; put it back or locate it.");
+    LoadedImage loaded = import_image(registry, file);
+    ReadyMap ready{.width = loaded.image.width,
+                   .height = loaded.image.height,
+                   .channels = loaded.image.channels,
+                   .bits = bits_of(loaded.image.type),
+                   .notes = std::move(loaded.notes)};
+    const auto bytes = fs::file_size(file, ignored);
+    ready.file_bytes = ignored ? 0 : bytes;
+    const bool linear_color = request.kind == MapKind::Color && request.color_space == ColorSpace::Linear;
+    ready.thumbnail = small_picture(loaded.image, kThumbnailPx, linear_color);
+    ready.levels = make_map_levels(loaded.image, request.kind, request.color_space);
+    if (max_side > 0)
+        while (ready.levels.levels.size() > 1 &&
+               std::max(ready.levels.levels[0].width, ready.levels.levels[0].height) > max_side)
+            ready.levels.levels.erase(ready.levels.levels.begin());
+    return ready;
+}
+
+std::optional<ReadyEnvironment> load_and_bake(const Registry& registry, const std::string& id,
+                                              const BakeSettings& settings, const BakeCache& cache,
+                                              const BakeControl& control) {
+    const Environment environment = load_environment(registry, id);
+    if (control.stop.stop_requested()) return std::nullopt;
+    control.progress(kDecodeShare);
+    BakeControl rest = control;
+    rest.progress = [&](float fraction) { control.progress(kDecodeShare + kBakeShare * fraction); };
+    std::optional<CachedBake> bake = cached_bake(environment, settings, rest, cache);
+    if (!bake || control.stop.stop_requested()) return std::nullopt;
+    ReadyEnvironment ready{.title = environment.title,
+                           .width = environment.width,
+                           .height = environment.height,
+                           .panorama = make_panorama_levels(environment),
+                           .baked = std::move(bake->baked),
+                           .from_disk = bake->from_disk,
+                           .notes = environment.notes};
+    ready.notes.insert(ready.notes.end(), ready.baked.notes.begin(), ready.baked.notes.end());
+    if (!bake->note.empty()) ready.notes.push_back(bake->note);
+    for (const glm::vec3& radiance : environment.radiance)
+        ready.max_radiance = std::max({ready.max_radiance, radiance.x, radiance.y, radiance.z});
+    return ready;
+}
+
+Image small_picture(const Image& image, int max_side, bool linear) {
+    const float shrink = std::max(1.0f, float(std::max(image.width, image.height)) / float(max_side));
+    const int width = std::max(1, int(std::lround(float(image.width) / shrink)));
+    const int height = std::max(1, int(std::lround(float(image.height) / shrink)));
+    Image small = make_image(width, height, 3, PixelType::U8);
+    const int samples = shrink > 1.0f ? kSamplesPerSide : 1;
+    const auto sample = [&](int x, int y, int channel) {
+        float sum = 0.0f;
+        for (int s = 0; s < samples * samples; ++s) {
+            const float u = (float(x) + (float(s % samples) + 0.5f) / float(samples)) / float(width);
+            const float v = (float(y) + (float(s / samples) + 0.5f) / float(samples)) / float(height);
+            sum += texel(image, std::min(int(u * float(image.width)), image.width - 1),
+                         std::min(int(v * float(image.height)), image.height - 1), channel);
+        }
+        return sum / float(samples * samples);
+    };
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const float value = sample(x, y, image.channels < 3 ? 0 : c);
+                set_texel(small, x, y, c, linear ? linear_to_srgb(value) : value);
+            }
+    return small;
+}
+
+Image small_panorama(const Environment& environment, int width) {
+    const int height = std::max(1, width / 2);
+    Image small = make_image(width, height, 3, PixelType::U8);
+    const auto range = [](int i, int n, int source) {
+        const int begin = int(std::int64_t(i) * source / n);
+        return std::pair{begin, std::max(begin + 1, int(std::int64_t(i + 1) * source / n))};
+    };
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const auto [x0, x1] = range(x, width, environment.width);
+            const auto [y0, y1] = range(y, height, environment.height);
+            glm::vec3 sum(0.0f);
+            for (int j = y0; j < y1; ++j)
+                for (int i = x0; i < x1; ++i)
+                    sum += environment.radiance[std::size_t(j) * environment.width + i];
+            sum /= float((x1 - x0) * (y1 - y0));
+            for (int c = 0; c < 3; ++c) set_texel(small, x, y, c, display_value(sum[c]));
+        }
+    return small;
+}
+
+std::string short_name(const std::string& id) {
+    const std::size_t slash = id.find_last_of("/\\");
+    return slash == std::string::npos ? id : id.substr(slash + 1);
+}
+
+}  // namespace patina

@@ -1,0 +1,60 @@
+// The workers' side of reconcile: from a file or an id to what can be uploaded. Pure but for the files they
+// read; know no GPU and no document.
+#pragma once
+
+#include "app/jobs.h"
+#include "app/registry.h"
+#include "renderer/gl/panorama.h"
+#include "renderer/ibl/cache.h"
+#include "renderer/renderer.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+struct MapRequest {
+    std::string file;  ///< full path or what else the preset named
+    MapKind kind = MapKind::Data;
+    ColorSpace color_space = ColorSpace::Linear;
+};
+/// How a slot's map is read; the kind of its mipmaps follows from the slot.
+MapRequest map_request(const Material& material, MapSlot slot);
+
+struct ReadyMap {
+    MapLevels levels;
+    Image thumbnail;  ///< 3 channels of 8 bits, at most kThumbnailPx a side
+    int width = 0, height = 0, channels = 0, bits = 0;
+    std::uint64_t file_bytes = 0;
+    std::vector<std::string> notes;
+};
+inline constexpr int kThumbnailPx = 128;
+
+/// Throws std::runtime_error with one sentence. max_side > 0: the finest level is no larger (for thumbnails).
+ReadyMap load_map(const Registry& registry, const MapRequest& request, int max_side = 0);
+
+struct ReadyEnvironment {
+    std::string title;
+    int width = 0, height = 0;  ///< of the source
+    PanoramaLevels panorama;
+    BakedEnvironment baked;
+    bool from_disk = false;
+    float max_radiance = 0.0f;
+    std::vector<std::string> notes;
+};
+/// nullopt only when stopped.
+std::optional<ReadyEnvironment> load_and_bake(const Registry& registry, const std::string& id,
+                                              const BakeSettings& settings, const BakeCache& cache,
+                                              const BakeControl& control);
+
+/// Any picture as a small one to look at: 3 channels of 8 bits. linear: its values are light and get encoded.
+Image small_picture(const Image& image, int max_side, bool linear);
+/// A panorama, tone-mapped, width × width/2.
+Image small_panorama(const Environment& environment, int width);
+
+/// The last part of a path or id, for labels.
+std::string short_name(const std::string& id);
+
+}  // namespace patina

@@ -1,0 +1,358 @@
+#include "app/window.h"
+
+#include "ui/workspace.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <epoxy/gl.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <cmath>
+#include <cstring>
+#include <deque>
+#include <stdexcept>
+#include <utility>
+
+namespace patina {
+namespace {
+
+constexpr float kDrivenFrame_s = 1.0f / 60.0f;
+constexpr int kMouseButtons = 3;
+
+struct KeyEvent {
+    bool is_character = false;
+    unsigned character = 0;
+    int key = 0, scancode = 0, action = 0, mods = 0;
+};
+
+std::string last_glfw_error() {
+    const char* text = nullptr;
+    glfwGetError(&text);
+    return text ? text : "the reason is unknown";
+}
+
+}  // namespace
+
+struct Window::State {
+    GLFWwindow* window = nullptr;
+    bool driven = false;
+    WindowEvents events;
+    std::deque<KeyEvent> keys;  ///< delivered so that a key changes at most once a frame
+    std::uint64_t frames = 0;
+    float scale = 1.0f, framebuffer_scale = 1.0f;  ///< what style and fonts were made for
+    glm::vec2 mouse{-1.0f};
+    std::array<bool, kMouseButtons> mouse_down{};
+
+    void install_callbacks();
+    void deliver_keys();
+    void override_mouse() const;
+    void measure_scale(float& interface, float& framebuffer) const;
+    static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
+};
+
+namespace {
+
+GLFWwindow* open_window(const WindowOptions& options) {
+    if (!glfwInit())
+        throw std::runtime_error("No window can be opened: " + last_glfw_error() +
+                                 ". `patina render` works without a display.");
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 1);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    glfwWindowHint(GLFW_VISIBLE, options.hidden ? GLFW_FALSE : GLFW_TRUE);
+    glfwWindowHint(GLFW_MAXIMIZED, options.maximized ? GLFW_TRUE : GLFW_FALSE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHintString(GLFW_X11_CLASS_NAME, "patina");
+    glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "patina");
+    GLFWwindow* window =
+        glfwCreateWindow(options.size.x, options.size.y, options.title.c_str(), nullptr, nullptr);
+    if (!window) {
+        const std::string reason = last_glfw_error();
+        glfwTerminate();
+        throw std::runtime_error(
+            "No OpenGL 4.1 window can be opened: " + reason +
+            ". Update the graphics driver, or set LIBGL_ALWAYS_SOFTWARE=1 to draw in software.");
+    }
+    return window;
+}
+
+/// A small display may be smaller than the window that was asked for.
+void fit_to_monitor(GLFWwindow* window) {
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    if (!monitor) return;
+    glm::ivec2 origin, area, size;
+    glfwGetMonitorWorkarea(monitor, &origin.x, &origin.y, &area.x, &area.y);
+    glfwGetWindowSize(window, &size.x, &size.y);
+    if (area.x > 0 && area.y > 0 && (size.x > area.x || size.y > area.y))
+        glfwSetWindowSize(window, std::min(size.x, area.x), std::min(size.y, area.y));
+}
+
+}  // namespace
+
+void Window::State::install_callbacks() {
+    glfwSetWindowUserPointer(window, this);
+    glfwSetWindowCloseCallback(window, [](GLFWwindow* w) {
+        glfwSetWindowShouldClose(w, GLFW_FALSE);
+        of(w).events.close = of(w).events.any = true;
+    });
+    glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).events.any = true; });
+    glfwSetWindowSizeCallback(window, [](GLFWwindow* w, int, int) { of(w).events.any = true; });
+    glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { of(w).events.any = true; });
+    glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) { of(w).events.any = true; });
+    glfwSetWindowIconifyCallback(window, [](GLFWwindow* w, int) { of(w).events.any = true; });
+    glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+        glm::dvec2 position;
+        glfwGetCursorPos(w, &position.x, &position.y);
+        of(w).events.drops.push_back({{paths, paths + count}, position});
+        of(w).events.any = true;
+    });
+    if (driven) return;
+    glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
+        ImGui_ImplGlfw_WindowFocusCallback(w, focused);
+        of(w).events.any = true;
+        of(w).events.focus_gained |= focused == GLFW_TRUE;
+    });
+    glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int entered) {
+        ImGui_ImplGlfw_CursorEnterCallback(w, entered);
+        of(w).events.any = true;
+    });
+    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { of(w).events.any = true; });
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
+        ImGui_ImplGlfw_MouseButtonCallback(w, button, action, mods);
+        of(w).events.any = true;
+    });
+    glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
+        ImGui_ImplGlfw_ScrollCallback(w, x, y);
+        of(w).events.any = true;
+    });
+    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+        of(w).keys.push_back({.key = key, .scancode = scancode, .action = action, .mods = mods});
+        of(w).events.any = true;
+    });
+    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) {
+        of(w).keys.push_back({.is_character = true, .character = character});
+        of(w).events.any = true;
+    });
+}
+
+void Window::State::deliver_keys() {
+    std::vector<int> changed;
+    while (!keys.empty()) {
+        const KeyEvent event = keys.front();
+        if (!event.is_character) {
+            if (std::find(changed.begin(), changed.end(), event.key) != changed.end()) break;
+            changed.push_back(event.key);
+            ImGui_ImplGlfw_KeyCallback(window, event.key, event.scancode, event.action, event.mods);
+        } else {
+            ImGui_ImplGlfw_CharCallback(window, event.character);
+        }
+        keys.pop_front();
+    }
+    if (!keys.empty()) events.any = true;  // the rest belongs to the next frame
+}
+
+void Window::State::override_mouse() const {
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = ImVec2(mouse.x, mouse.y);
+    for (int i = 0; i < kMouseButtons; ++i) io.MouseDown[i] = mouse_down[i];
+    io.DeltaTime = kDrivenFrame_s;
+}
+
+void Window::State::measure_scale(float& interface, float& framebuffer) const {
+    glm::ivec2 size, pixels;
+    glm::vec2 content(1.0f);
+    glfwGetWindowSize(window, &size.x, &size.y);
+    glfwGetFramebufferSize(window, &pixels.x, &pixels.y);
+    glfwGetWindowContentScale(window, &content.x, &content.y);
+    framebuffer = size.x > 0 ? float(pixels.x) / float(size.x) : 1.0f;
+    interface = std::clamp(std::round(content.x / framebuffer * 4.0f) / 4.0f, 1.0f, 4.0f);
+}
+
+Window::Window(const WindowOptions& options) : state_(std::make_unique<State>()) {
+    state_->window = open_window(options);
+    state_->driven = options.driven;
+    fit_to_monitor(state_->window);
+    glfwMakeContextCurrent(state_->window);
+    glfwSwapInterval(1);
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.ConfigWindowsMoveFromTitleBarOnly = true;
+    state_->install_callbacks();
+    ImGui_ImplGlfw_InitForOpenGL(state_->window, false);
+    ImGui_ImplOpenGL3_Init("#version 410 core");
+    state_->measure_scale(state_->scale, state_->framebuffer_scale);
+    ui::apply_theme(state_->scale, state_->framebuffer_scale);
+    if (state_->driven) ImGui_ImplGlfw_WindowFocusCallback(state_->window, GLFW_TRUE);
+    state_->events.any = true;
+}
+
+Window::~Window() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    glfwDestroyWindow(state_->window);
+    glfwTerminate();
+}
+
+void Window::wait(double timeout_s) {
+    if (timeout_s <= 0.0)
+        glfwPollEvents();
+    else
+        glfwWaitEventsTimeout(timeout_s);
+}
+
+void Window::wake() { glfwPostEmptyEvent(); }
+
+WindowEvents Window::take_events() { return std::exchange(state_->events, {}); }
+
+void Window::begin_frame() {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    state_->deliver_keys();
+    if (state_->driven) state_->override_mouse();
+    ImGui::NewFrame();
+}
+
+void Window::end_frame(Image* shown) {
+    ImGui::Render();
+    glm::ivec2 pixels;
+    glfwGetFramebufferSize(state_->window, &pixels.x, &pixels.y);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, pixels.x, pixels.y);
+    glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    if (shown && pixels.x > 0 && pixels.y > 0) {
+        *shown = make_image(pixels.x, pixels.y, 3, PixelType::U8);
+        const std::size_t row = std::size_t(pixels.x) * 3;
+        glPixelStorei(GL_PACK_ALIGNMENT, 1);
+        for (int y = 0; y < pixels.y; ++y)
+            glReadPixels(0, pixels.y - 1 - y, pixels.x, 1, GL_RGB, GL_UNSIGNED_BYTE,
+                         shown->bytes.data() + y * row);
+        glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    }
+    glfwSwapBuffers(state_->window);
+    ++state_->frames;
+}
+
+bool Window::wants_text() const { return ImGui::GetIO().WantTextInput; }
+
+bool Window::minimized() const {
+    glm::ivec2 pixels;
+    glfwGetFramebufferSize(state_->window, &pixels.x, &pixels.y);
+    return pixels.x <= 0 || pixels.y <= 0 || glfwGetWindowAttrib(state_->window, GLFW_ICONIFIED) == GLFW_TRUE;
+}
+
+std::uint64_t Window::frames() const { return state_->frames; }
+double Window::time_s() const { return glfwGetTime(); }
+float Window::interface_scale() const { return state_->scale; }
+float Window::framebuffer_scale() const { return state_->framebuffer_scale; }
+
+glm::ivec2 Window::size() const {
+    glm::ivec2 size;
+    glfwGetWindowSize(state_->window, &size.x, &size.y);
+    return size;
+}
+
+bool Window::maximized() const { return glfwGetWindowAttrib(state_->window, GLFW_MAXIMIZED) == GLFW_TRUE; }
+
+std::string Window::description() const {
+    const auto text = [](GLenum name) {
+        const auto* bytes = reinterpret_cast<const char*>(glGetString(name));
+        return std::string(bytes ? bytes : "?");
+    };
+    return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
+}
+
+bool Window::follow_scale() {
+    float scale = 1.0f, framebuffer = 1.0f;
+    state_->measure_scale(scale, framebuffer);
+    if (scale == state_->scale && framebuffer == state_->framebuffer_scale) return false;
+    state_->scale = scale;
+    state_->framebuffer_scale = framebuffer;
+    ui::apply_theme(scale, framebuffer);
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+    return true;
+}
+
+void Window::set_title(const std::string& title) { glfwSetWindowTitle(state_->window, title.c_str()); }
+void Window::set_clipboard(const std::string& text) { glfwSetClipboardString(state_->window, text.c_str()); }
+
+void Window::move_mouse(glm::vec2 position) {
+    state_->mouse = position;
+    state_->events.any = true;
+}
+
+void Window::press_mouse(int button, bool down) {
+    state_->mouse_down[button] = down;
+    state_->events.any = true;
+}
+
+void Window::turn_wheel(float lines) {
+    ImGui_ImplGlfw_ScrollCallback(state_->window, 0.0, lines);
+    state_->events.any = true;
+}
+
+void Window::press_key(int key, bool down) {
+    state_->keys.push_back({.key = key, .action = down ? GLFW_PRESS : GLFW_RELEASE});
+    state_->events.any = true;
+}
+
+void Window::type_character(unsigned codepoint) {
+    state_->keys.push_back({.is_character = true, .character = codepoint});
+    state_->events.any = true;
+}
+
+void Window::drop_files(const std::vector<std::string>& files) {
+    state_->events.drops.push_back({files, state_->mouse});
+    state_->events.any = true;
+}
+
+void Window::resize(glm::ivec2 size) { glfwSetWindowSize(state_->window, size.x, size.y); }
+
+void Window::ask_to_close() { state_->events.close = state_->events.any = true; }
+void Window::call_for_frame() { state_->events.any = true; }
+
+int key_code(const std::string& name) {
+    if (name.size() == 1 && name[0] >= 'a' && name[0] <= 'z') return GLFW_KEY_A + (name[0] - 'a');
+    if (name.size() == 1 && std::strchr("0123456789-=[]\\;',./` ", name[0]))
+        return name[0];  // GLFW's codes for these are their ASCII codes
+    if (name.size() >= 2 && name[0] == 'f' && name.find_first_not_of("0123456789", 1) == std::string::npos)
+        return GLFW_KEY_F1 + std::clamp(std::atoi(name.c_str() + 1), 1, 25) - 1;
+    static constexpr std::array<std::pair<const char*, int>, 21> kNames{{{"ctrl", GLFW_KEY_LEFT_CONTROL},
+                                                                         {"shift", GLFW_KEY_LEFT_SHIFT},
+                                                                         {"alt", GLFW_KEY_LEFT_ALT},
+                                                                         {"super", GLFW_KEY_LEFT_SUPER},
+                                                                         {"escape", GLFW_KEY_ESCAPE},
+                                                                         {"enter", GLFW_KEY_ENTER},
+                                                                         {"tab", GLFW_KEY_TAB},
+                                                                         {"space", GLFW_KEY_SPACE},
+                                                                         {"backspace", GLFW_KEY_BACKSPACE},
+                                                                         {"delete", GLFW_KEY_DELETE},
+                                                                         {"insert", GLFW_KEY_INSERT},
+                                                                         {"left", GLFW_KEY_LEFT},
+                                                                         {"right", GLFW_KEY_RIGHT},
+                                                                         {"up", GLFW_KEY_UP},
+                                                                         {"down", GLFW_KEY_DOWN},
+                                                                         {"home", GLFW_KEY_HOME},
+                                                                         {"end", GLFW_KEY_END},
+                                                                         {"pageup", GLFW_KEY_PAGE_UP},
+                                                                         {"pagedown", GLFW_KEY_PAGE_DOWN},
+                                                                         {"plus", GLFW_KEY_KP_ADD},
+                                                                         {"minus", GLFW_KEY_MINUS}}};
+    for (const auto& [known, code] : kNames)
+        if (name == known) return code;
+    return 0;
+}
+
+}  // namespace patina
