@@ -2,28 +2,141 @@
 
 #include "renderer/ibl/kernel.h"
 #include "renderer/ibl/level_plan.h"
+#include "renderer/ibl/lights.h"
 #include "renderer/ibl/sampling.h"
 #include "renderer/ibl/sh_transform.h"
 
-#include <glm/common.hpp>
-
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <cmath>
-#include <numbers>
 
 namespace patina {
 namespace {
 
 constexpr int kLevelCount = 16;
-constexpr float kSharpest = 0.0999f;  ///< smoother levels come from the standard transform
+constexpr float kStandardSharpest = 0.0999f;  ///< smoother levels need no more than the standard band
 constexpr int kStandardBand = 600;
+constexpr float kTransformSharpest = 0.0599f;  ///< the transform's limit
+constexpr int kSharpBand = 1000;
 constexpr double kTruncation = 2e-4;  ///< relative rms of what a level leaves out
+constexpr int kSharpSamples = 1024;
+
+/// How much of it all is computed.
+struct Plan {
+    int band = kStandardBand;
+    int largest_face = 256;
+};
 
 /// Smooth levels need fewer texels: bilinear reconstruction then errs less than the levels themselves.
 int face_size(float roughness, int largest) {
-    const int size = roughness < kSharpest ? 256 : roughness < 0.25f ? 128 : roughness < 0.6f ? 64 : 32;
+    const int size = roughness < kStandardSharpest ? 256
+                     : roughness < 0.25f           ? 128
+                     : roughness < 0.6f            ? 64
+                                                   : 32;
     return std::min(size, largest);
+}
+
+bool is_transformed(float roughness) { return roughness >= kTransformSharpest; }
+
+bool is_sharp(float roughness) { return roughness > 0.0f && roughness < kStandardSharpest; }
+
+/// Calls progress with shares of the work done; only ever from the thread that bakes.
+struct Progress {
+    const BakeControl& control;
+    double total, done = 0.0;
+    void add(double share) { control.progress(float(std::min(1.0, (done += share) / total))); }
+};
+
+/// Milliseconds since it was made or last asked.
+class Stopwatch {
+public:
+    double lap_ms() {
+        const auto now = std::chrono::steady_clock::now();
+        const std::chrono::duration<double, std::milli> lap = now - start_;
+        start_ = now;
+        return lap.count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// What a level costs, in arbitrary units.
+double level_cost(float roughness) { return roughness < 0.25f ? 3.0 : 1.0; }
+
+/// The kernels of all levels, then that of the irradiance (empty where the transform is not used).
+std::vector<std::vector<double>> make_kernels(const std::vector<float>& roughness, int band,
+                                              const BakeControl& control) {
+    std::vector<std::vector<double>> kernels(roughness.size() + 1);
+    control.parallel_for(int(kernels.size()), [&](int i) {
+        // At roughness 1 D is constant and the kernel is NoL: that level is E/π.
+        const double r = i < int(roughness.size()) ? roughness[i] : 1.0;
+        if (is_transformed(float(r)) && !control.stop.stop_requested())
+            kernels[i] = ggx_zonal(r * r, kernel_band(r * r, band));
+    });
+    return kernels;
+}
+
+/// Levels and irradiance of what the extraction left, by the transform; levels it cannot do are left empty.
+std::optional<BakedEnvironment> transform_levels(const RadianceView& view, const BakeSettings& settings,
+                                                 const Plan& plan, const BakeControl& control,
+                                                 Progress& progress) {
+    Stopwatch stopwatch;
+    BakedEnvironment baked;
+    std::vector<std::vector<double>> kernels = make_kernels(settings.roughness, plan.band, control);
+    const RadianceStatistics statistics = radiance_statistics(view, control.parallel_for);
+    const LegendreTables tables(plan.band, control.parallel_for);
+    if (control.stop.stop_requested()) return std::nullopt;
+    const ShCoefficients coefficients = analyse(view, tables, control);
+    if (control.stop.stop_requested()) return std::nullopt;
+    progress.add(3.0);
+    const std::vector<double> power = power_spectrum(coefficients);
+    const Synthesis::Range range = {statistics.lowest, statistics.highest};
+    Synthesis synthesis(coefficients, control);
+    const auto make_level = [&](std::vector<double>& kernel, float roughness) {
+        truncate(kernel, power, kTruncation * statistics.error_scale);
+        return synthesis.to_cube(
+            kernel, face_size(roughness, std::min(plan.largest_face, settings.max_face_size)), range);
+    };
+    baked.timings.transform_ms = stopwatch.lap_ms();
+    baked.irradiance = make_level(kernels.back(), 1.0f);
+    baked.timings.irradiance_ms = stopwatch.lap_ms();
+    for (std::size_t i = 0; i < settings.roughness.size(); ++i) {
+        const float roughness = settings.roughness[i];
+        PrefilteredLevel level{roughness, {}};
+        if (roughness == 1.0f)
+            level.cube = baked.irradiance;
+        else if (!kernels[i].empty())
+            level.cube = make_level(kernels[i], roughness);
+        baked.levels.push_back(std::move(level));
+        if (control.stop.stop_requested()) return std::nullopt;
+        progress.add(level_cost(roughness));
+    }
+    baked.timings.levels_ms = stopwatch.lap_ms();
+    return baked;
+}
+
+void put_back(const LightExtraction& extraction, const BakeControl& control, BakedEnvironment& baked) {
+    for (PrefilteredLevel& level : baked.levels)
+        if (level.cube.size > 0) fold_back(extraction, level.roughness, level.cube, control);
+    fold_back(extraction, 1.0f, baked.irradiance, control);
+}
+
+/// The levels sharper than the transform resolves.
+void sample_levels(const Environment& environment, const BakeSettings& settings, const BakeControl& control,
+                   BakedEnvironment& baked) {
+    std::optional<CubePyramid> pyramid;
+    for (PrefilteredLevel& level : baked.levels) {
+        if (level.cube.size > 0 || control.stop.stop_requested()) continue;
+        const int size = face_size(level.roughness, settings.max_face_size);
+        if (level.roughness <= 0.0f) {
+            level.cube = resample_environment(environment, size, control.parallel_for);
+            continue;
+        }
+        if (!pyramid) pyramid.emplace(environment, 256, control.parallel_for);
+        level.cube = prefilter_by_sampling(*pyramid, level.roughness, kSharpSamples, size, control);
+    }
 }
 
 }  // namespace
@@ -43,40 +156,48 @@ std::vector<float> standard_roughness_levels() {
 std::optional<BakedEnvironment> bake_environment(const Environment& environment, const BakeSettings& settings,
                                                  const BakeControl& control) {
     assert(environment.width > 0 && environment.height > 0);
-    BakedEnvironment baked;
-    std::vector<std::vector<double>> zonal(settings.roughness.size() + 1);
-    control.parallel_for(int(zonal.size()), [&](int i) {
-        const double r = i < int(settings.roughness.size()) ? settings.roughness[i] : 1.0;
-        if (r >= kSharpest) zonal[i] = ggx_zonal(r * r, kernel_band(r * r, kStandardBand));
-    });
+    Progress progress{control, 4.0};
+    for (const float roughness : settings.roughness) progress.total += level_cost(roughness);
+    const bool any_sharp = std::any_of(settings.roughness.begin(), settings.roughness.end(), is_sharp);
+    // A sharp lobe turns a sun into rings of a cut-off spectrum: the sun is taken out, and put back exactly.
+    Stopwatch stopwatch;
+    LightExtraction extraction;
+    if (any_sharp || settings.extract_lights)
+        extraction = extract_lights(environment, {});
+    else
+        extraction.residual = view_of(environment);
+    const double extract_ms = stopwatch.lap_ms();
     if (control.stop.stop_requested()) return std::nullopt;
-    const LegendreTables tables(kStandardBand, control.parallel_for);
-    const RadianceStatistics statistics = radiance_statistics(environment, control.parallel_for);
-    const Synthesis::Range range = {statistics.lowest, statistics.highest};
-    const ShCoefficients coefficients = analyse(environment, tables, control);
+    const Plan plan = {any_sharp ? kSharpBand : kStandardBand};
+    std::optional<BakedEnvironment> baked =
+        transform_levels(extraction.residual, settings, plan, control, progress);
+    if (!baked) return std::nullopt;
+    stopwatch.lap_ms();
+    if (settings.extract_lights)
+        baked->lights = extraction.lights;
+    else
+        put_back(extraction, control, *baked);
+    baked->timings.lights_ms = extract_ms + stopwatch.lap_ms();
+    sample_levels(environment, settings, control, *baked);
+    baked->timings.levels_ms += stopwatch.lap_ms();
     if (control.stop.stop_requested()) return std::nullopt;
-    const std::vector<double> power = power_spectrum(coefficients);
-    const double allowed_rms = kTruncation * statistics.error_scale;
-    for (auto& kernel : zonal)
-        if (!kernel.empty()) truncate(kernel, power, allowed_rms);
-    Synthesis synthesis(coefficients, control);
-    std::optional<CubePyramid> pyramid;
-    for (std::size_t i = 0; i < settings.roughness.size(); ++i) {
-        if (control.stop.stop_requested()) return std::nullopt;
-        const float roughness = settings.roughness[i];
-        const int size = face_size(roughness, settings.max_face_size);
-        if (zonal[i].empty()) {
-            if (!pyramid) pyramid.emplace(environment, 256, control.parallel_for);
-            baked.levels.push_back(
-                {roughness, prefilter_by_sampling(*pyramid, roughness, 256, size, control)});
-        } else {
-            baked.levels.push_back({roughness, synthesis.to_cube(zonal[i], size, range)});
-        }
-        control.progress(float(i + 1) / float(settings.roughness.size() + 1));
-    }
-    baked.irradiance = synthesis.to_cube(zonal.back(), face_size(1.0f, settings.max_face_size), range);
-    if (control.stop.stop_requested()) return std::nullopt;
-    control.progress(1.0f);
+    progress.add(progress.total);
+    return baked;
+}
+
+std::optional<BakedEnvironment> bake_first_light(const Environment& environment, const BakeSettings& settings,
+                                                 const BakeControl& control) {
+    const Environment small = reduce(environment, 128, 64, control.parallel_for);
+    BakeSettings smooth = settings;  // sharper levels hold the sharpest that few degrees can
+    constexpr float kSharpest = 0.25f;
+    for (float& roughness : smooth.roughness) roughness = std::max(roughness, kSharpest);
+    Progress progress{control, 4.0 + double(settings.roughness.size()) * 3.0};
+    const Plan plan = {32, 32};
+    std::optional<BakedEnvironment> baked = transform_levels(view_of(small), smooth, plan, control, progress);
+    if (!baked) return std::nullopt;
+    for (std::size_t i = 0; i < settings.roughness.size(); ++i)
+        baked->levels[i].roughness = settings.roughness[i];
+    progress.add(progress.total);
     return baked;
 }
 

@@ -190,9 +190,10 @@ std::string cannot_keep(const BakeCache& cache, const std::string& why) {
 }  // namespace
 
 std::string bake_key(const Environment& environment, const BakeSettings& settings) {
-    std::vector<std::uint64_t> words = {std::uint64_t(kBakerVersion), environment.content_hash,
-                                        std::uint64_t(environment.width), std::uint64_t(environment.height),
-                                        std::uint64_t(settings.max_face_size)};
+    std::vector<std::uint64_t> words = {
+        std::uint64_t(kBakerVersion),          environment.content_hash,
+        std::uint64_t(environment.width),      std::uint64_t(environment.height),
+        std::uint64_t(settings.max_face_size), std::uint64_t(settings.extract_lights)};
     for (const float roughness : settings.roughness) words.push_back(std::bit_cast<std::uint32_t>(roughness));
     const std::size_t bytes = words.size() * sizeof(words[0]);
     return hex(hash_bytes(words.data(), bytes, 1)) + hex(hash_bytes(words.data(), bytes, 2));

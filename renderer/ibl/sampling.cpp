@@ -101,22 +101,32 @@ std::vector<LobeSample> lobe_samples(double alpha, int count, int source_size) {
 
 }  // namespace
 
-CubePyramid::CubePyramid(const Environment& environment, int face_size, const ParallelFor& parallel_for) {
-    constexpr int kSub = 3;
-    Level base{face_size, std::vector<glm::vec3>(std::size_t(6) * (face_size + 2) * (face_size + 2))};
-    parallel_for(6 * face_size, [&](int row) {
-        const int face = row / face_size;
-        const int y = row % face_size;
-        for (int x = 0; x < face_size; ++x) {
+CubeMap resample_environment(const Environment& environment, int size, const ParallelFor& parallel_for) {
+    const int points =
+        std::max(3, int(std::ceil(0.375 * environment.width / size)));  // at least 1½ a source texel
+    CubeMap cube{size, std::vector<glm::vec3>(std::size_t(6) * size * size)};
+    parallel_for(6 * size, [&](int row) {
+        const auto coordinate = [&](int texel, int point) {
+            return 2.0f * (float(texel) + (float(point) + 0.5f) / float(points)) / float(size) - 1.0f;
+        };
+        for (int x = 0; x < size; ++x) {
             glm::vec3 sum(0.0f);
-            for (int k = 0; k < kSub * kSub; ++k) {
-                const float s = 2.0f * (float(x) + (float(k % kSub) + 0.5f) / kSub) / float(face_size) - 1.0f;
-                const float t = 2.0f * (float(y) + (float(k / kSub) + 0.5f) / kSub) / float(face_size) - 1.0f;
-                sum += panorama(environment, glm::normalize(plane_direction(face, s, t)));
-            }
-            base.texels[base.at(face, x, y)] = sum / float(kSub * kSub);
+            for (int k = 0; k < points * points; ++k)
+                sum += panorama(environment,
+                                glm::normalize(plane_direction(row / size, coordinate(x, k % points),
+                                                               coordinate(row % size, k / points))));
+            cube.texels[std::size_t(row) * size + x] = sum / float(points * points);
         }
     });
+    return cube;
+}
+
+CubePyramid::CubePyramid(const Environment& environment, int face_size, const ParallelFor& parallel_for) {
+    const CubeMap cube = resample_environment(environment, face_size, parallel_for);
+    Level base{face_size, std::vector<glm::vec3>(std::size_t(6) * (face_size + 2) * (face_size + 2))};
+    for (int i = 0; i < 6 * face_size * face_size; ++i)
+        base.texels[base.at(i / (face_size * face_size), i % face_size, i / face_size % face_size)] =
+            cube.texels[i];
     fill_border(base);
     levels_.push_back(std::move(base));
     while (levels_.back().size > 1) {
@@ -191,10 +201,7 @@ CubeMap prefilter_by_sampling(const CubePyramid& source, float roughness, int sa
                               const BakeControl& control) {
     CubeMap cube{face_size, std::vector<glm::vec3>(std::size_t(6) * face_size * face_size)};
     const double alpha = double(roughness) * roughness;
-    const float mirror_lod = std::log2(float(source.face_size()) / float(face_size));
-    const std::vector<LobeSample> lobe =
-        roughness > 0.0f ? lobe_samples(alpha, samples, source.face_size())
-                         : std::vector<LobeSample>{{glm::vec3(0, 0, 1), 1.0f, std::max(0.0f, mirror_lod)}};
+    const std::vector<LobeSample> lobe = lobe_samples(alpha, samples, source.face_size());
     control.parallel_for(6 * face_size, [&](int row) {
         if (control.stop.stop_requested()) return;
         for (int x = 0; x < face_size; ++x) {

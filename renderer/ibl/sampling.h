@@ -29,6 +29,9 @@ private:
     std::vector<Level> levels_;
 };
 
+/// The environment itself on cube faces, each texel the mean of points spread over it.
+CubeMap resample_environment(const Environment& environment, int face_size, const ParallelFor& parallel_for);
+
 /// One level by filtered importance sampling of D(h) with that many samples (Křivánek & Colbert, GPU Gems 3):
 /// a sample reads the mip level whose texels are as large as the solid angle it stands for. roughness 0
 /// copies the environment.

@@ -36,29 +36,31 @@ std::size_t spread_stride(std::size_t floats) {
     return (lines | 1) * 16;
 }
 
-/// A panorama as the analysis sees it: rows may stand for several, so that a small picture's hard edges are
-/// resolved.
-struct Panorama {
-    int columns, rows, row_repeat;
-    const float* texels;
-    std::vector<glm::vec3> widened;
+/// A panorama as the analysis sees it: texels repeated so that a small picture's hard edges are resolved.
+struct FineRows {
+    int columns, count;
+    std::vector<const float*> rows;  ///< count of them
+    std::vector<std::vector<glm::vec3>> widened;
 
-    Panorama(const Environment& e, int band) {
+    FineRows(const RadianceView& view, int band) {
         // Twice as many columns as rows; the band may pass the rows by a little, because texels are areas,
         // not samples.
         const int wanted = std::max(16, band - 88);
-        row_repeat = (wanted + e.height - 1) / e.height;
-        const int column_repeat = (2 * wanted + e.width - 1) / e.width;
-        columns = e.width * column_repeat;
-        rows = e.height * row_repeat;
-        texels = reinterpret_cast<const float*>(e.radiance.data());
-        if (column_repeat == 1) return;
-        widened.reserve(std::size_t(columns) * e.height);
-        for (const glm::vec3& texel : e.radiance)
-            widened.insert(widened.end(), std::size_t(column_repeat), texel);
-        texels = reinterpret_cast<const float*>(widened.data());
+        const int row_repeat = (wanted + view.height - 1) / view.height;
+        const int column_repeat = (2 * wanted + view.width - 1) / view.width;
+        columns = view.width * column_repeat;
+        count = view.height * row_repeat;
+        for (const glm::vec3* row : view.rows) {
+            if (column_repeat > 1) {
+                std::vector<glm::vec3>& wide = widened.emplace_back();
+                wide.reserve(std::size_t(columns));
+                for (int x = 0; x < view.width; ++x)
+                    wide.insert(wide.end(), std::size_t(column_repeat), row[x]);
+                row = wide.data();
+            }
+            rows.insert(rows.end(), std::size_t(row_repeat), &row->x);
+        }
     }
-    const float* row(int y) const { return texels + std::size_t(y / row_repeat) * columns * 3; }
 };
 
 /// Rings of one hemisphere with what the analysis multiplies them by, padded with weightless copies of the
@@ -68,16 +70,16 @@ struct AnalysisRings {
     std::vector<double> cosine, sine;
     std::vector<float> weight, widening;
 
-    AnalysisRings(const Panorama& panorama, int group) {
-        const int count = (panorama.rows + 1) / 2;
+    AnalysisRings(const FineRows& fine, int group) {
+        const int count = (fine.count + 1) / 2;
         padded = (count + group - 1) / group * group;
-        const double step = kPi / panorama.rows;
+        const double step = kPi / fine.count;
         for (int i = 0; i < padded; ++i) {
             const int y = std::min(i, count - 1);
             const double middle = (y + 0.5) * step;
             const double theta = middle + step * step / 24.0 / std::tan(middle);
-            double area = (std::cos(y * step) - std::cos((y + 1) * step)) * 2.0 * kPi / panorama.columns;
-            if (2 * y + 1 == panorama.rows) area *= 0.5;  // the equator is its own mirror image
+            double area = (std::cos(y * step) - std::cos((y + 1) * step)) * 2.0 * kPi / fine.columns;
+            if (2 * y + 1 == fine.count) area *= 0.5;  // the equator is its own mirror image
             cosine.push_back(std::cos(theta));
             sine.push_back(std::sin(theta));
             weight.push_back(i < count ? float(0.5 * area) : 0.0f);  // split_channel gives twice the values
@@ -91,34 +93,34 @@ simd::Column column_of(const LegendreTables& tables, int m, int band) {
 }
 
 /// Rows to Fourier coefficients by order; the layout is [order][block of rings][part][lane].
-void analyse_rows(const Panorama& panorama, const AnalysisRings& rings, int band, std::size_t order_stride,
+void analyse_rows(const FineRows& fine, const AnalysisRings& rings, int band, std::size_t order_stride,
                   FloatBuffer& spectrum, const BakeControl& control) {
     const int lanes = simd::lane_count();
-    const FftPlan fft(panorama.columns);
+    const FftPlan fft(fine.columns);
     std::vector<float> phase;
     for (int m = 0; m <= band; ++m) {
-        const double angle = m * kPi / panorama.columns;
+        const double angle = m * kPi / fine.columns;
         const double sinc = m == 0 ? 1.0 : std::sin(angle) / angle;
         phase.push_back(float(sinc * std::cos(angle)));
         phase.push_back(float(-sinc * std::sin(angle)));
     }
-    const double step = kPi / panorama.rows;
+    const double step = kPi / fine.count;
     const std::size_t work_floats =
-        std::size_t(2 * lanes) * (3 * std::size_t(panorama.columns) + 2 * std::size_t(fft.buffer_elements()));
+        std::size_t(2 * lanes) * (3 * std::size_t(fine.columns) + 2 * std::size_t(fft.buffer_elements()));
     const auto make_work = [&] { return FloatBuffer(work_floats); };
     run_tasks(control, rings.padded / lanes, make_work, [&](int block, FloatBuffer& work) {
         std::vector<const float*> north, south;
         for (int k = 0; k < lanes; ++k) {
-            const int y = std::min(block * lanes + k, (panorama.rows - 1) / 2);
-            north.push_back(panorama.row(y));
-            south.push_back(panorama.row(panorama.rows - 1 - y));
+            const int y = std::min(block * lanes + k, (fine.count - 1) / 2);
+            north.push_back(fine.rows[y]);
+            south.push_back(fine.rows[fine.count - 1 - y]);
         }
         simd::AnalysisBlock job;
         job.north = north.data();
         job.south = south.data();
         job.fft = &fft.view();
         job.orders = band + 1;
-        job.useful_orders = std::min(band, (panorama.columns - 1) / 2) + 1;
+        job.useful_orders = std::min(band, (fine.columns - 1) / 2) + 1;
         job.phase = phase.data();
         job.weight = rings.weight.data() + std::size_t(block) * lanes;
         job.widening = rings.widening.data() + std::size_t(block) * lanes;
@@ -132,19 +134,18 @@ void analyse_rows(const Panorama& panorama, const AnalysisRings& rings, int band
 
 }  // namespace
 
-ShCoefficients analyse(const Environment& environment, const LegendreTables& tables,
-                       const BakeControl& control) {
+ShCoefficients analyse(const RadianceView& view, const LegendreTables& tables, const BakeControl& control) {
     const int lanes = simd::lane_count();
     const int band = tables.band;
-    const Panorama panorama(environment, band);
-    const AnalysisRings rings(panorama, simd::analysis_group());
+    const FineRows fine(view, band);
+    const AnalysisRings rings(fine, simd::analysis_group());
     const std::size_t order_stride = spread_stride(std::size_t(rings.padded) * simd::kParts);
     FloatBuffer spectrum(order_stride * (std::size_t(band) + 1));
-    analyse_rows(panorama, rings, band, order_stride, spectrum, control);
+    analyse_rows(fine, rings, band, order_stride, spectrum, control);
 
     std::vector<double> area_mean;  // exp(−δ² l(l + 1)/24)
     for (int l = 0; l <= band; ++l)
-        area_mean.push_back(std::exp(-kPi * kPi / panorama.rows / panorama.rows * l * (l + 1.0) / 24.0));
+        area_mean.push_back(std::exp(-kPi * kPi / fine.count / fine.count * l * (l + 1.0) / 24.0));
     ShCoefficients result;
     result.tables = &tables;
     result.values.reserve(6 * tables.factor.size());

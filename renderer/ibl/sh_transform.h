@@ -5,6 +5,7 @@
 #include "renderer/ibl/bake.h"
 #include "renderer/ibl/fft.h"
 #include "renderer/ibl/legendre.h"
+#include "renderer/ibl/panorama.h"
 #include "renderer/ibl/tasks.h"
 
 #include <map>
@@ -23,8 +24,7 @@ struct ShCoefficients {
 
 /// Coefficients to the tables' band, every texel taken as an area of constant radiance. Incomplete when
 /// stopped.
-ShCoefficients analyse(const Environment& environment, const LegendreTables& tables,
-                       const BakeControl& control);
+ShCoefficients analyse(const RadianceView& view, const LegendreTables& tables, const BakeControl& control);
 
 /// E_l = Σ_m |a_lm|², averaged over the channels; Σ_l E_l = ∫L² dω.
 std::vector<double> power_spectrum(const ShCoefficients& coefficients);

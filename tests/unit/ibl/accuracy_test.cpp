@@ -68,6 +68,8 @@ TEST(BakeAccuracy, holds_in_a_dark_studio) {
 TEST(BakeAccuracy, holds_for_noise) { expect_accurate(noise_panorama(128, 64, 5), {0.1f, 0.25f, 0.7f}, 25); }
 TEST(BakeAccuracy, holds_for_odd_and_tiny_sizes) {
     expect_accurate(noise_panorama(2, 1, 1), {0.1f, 0.3f, 1.0f}, 10);
+    expect_accurate(noise_panorama(97, 11, 1), {0.3f}, 10);  // a prime width: Bluestein's transform
+    expect_accurate(noise_panorama(62, 31, 1), {0.3f}, 10);  // a large odd radix
     expect_accurate(noise_panorama(37, 23, 1), {0.12f, 0.5f}, 10);
     expect_accurate(noise_panorama(1, 5, 1), {0.2f, 0.9f}, 10);
 }

@@ -13,9 +13,9 @@ using namespace test;
 
 TEST(Bake, keeps_a_constant_environment_constant_at_every_roughness) {
     BakeSettings settings;
-    settings.roughness = {0.0f, 0.05f, 0.1f, 0.3f, 0.7f, 1.0f};
+    settings.roughness = {0.0f, 0.05f, 0.3f, 1.0f};
     settings.max_face_size = 16;
-    for (const auto& [width, height] : {std::pair{1, 1}, {2, 1}, {64, 32}, {51, 33}}) {
+    for (const auto& [width, height] : {std::pair{1, 1}, {51, 33}}) {
         const Environment environment = constant_panorama(width, height, {0.5f, 1.0f, 3.0f});
         const auto baked = bake_environment(environment, settings, {});
         ASSERT_TRUE(baked);

@@ -28,11 +28,6 @@ void set_hash(Environment& environment) {
     environment.content_hash = hash + std::uint64_t(environment.width);
 }
 
-struct Sum {
-    glm::dvec3 radiance{0.0};
-    double weight = 0.0;
-};
-
 /// Part of the sphere between colatitudes t0, t1 and azimuths p0, p1.
 struct Cell {
     double t0, t1, p0, p1;
@@ -141,18 +136,24 @@ glm::dvec3 mean_radiance(const Environment& e) {
     return sum / (4.0 * kPi);
 }
 
+double kernel_integral(double alpha) {
+    const double a = alpha * alpha, q = (1.0 - a) / 2.0;
+    if (q < 1e-6) return kPi;
+    return 2.0 * kPi * a / q * ((1.0 + a / q) * (1.0 / a - 1.0 / (q + a)) - std::log((q + a) / a) / q);
+}
+
 glm::dvec3 prefiltered_radiance(const Environment& e, glm::dvec3 N, double roughness) {
     const double alpha = roughness * roughness;
-    Sum sum;
+    glm::dvec3 sum(0.0);
     for (int y = 0; y < e.height; ++y)
         for (int x = 0; x < e.width; ++x) {
+            const glm::dvec3 L = e.radiance[std::size_t(y) * e.width + x];
+            if (L == glm::dvec3(0.0)) continue;
             const Cell texel = {y * kPi / e.height, (y + 1) * kPi / e.height, x * 2.0 * kPi / e.width - kPi,
                                 (x + 1) * 2.0 * kPi / e.width - kPi};
-            const double weight = cell_kernel(texel, N, alpha);
-            sum.weight += weight;
-            sum.radiance += weight * glm::dvec3(e.radiance[std::size_t(y) * e.width + x]);
+            sum += cell_kernel(texel, N, alpha) * L;
         }
-    return sum.radiance / sum.weight;
+    return sum / kernel_integral(alpha);
 }
 
 ScratchFolder::ScratchFolder() {
