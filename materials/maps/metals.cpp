@@ -8,20 +8,22 @@ namespace {
 
 constexpr glm::vec3 kIronF0{0.560f, 0.570f, 0.580f};
 
-/// Height (0…1 below the surface) of thin straight scratches, nearly along u; some of them cross the tile's
-/// edge.
-float scratches(glm::vec2 uv, int count, float width, std::uint32_t seed) {
+/// Depth (0…1) of thin straight scratches; `turn` 0 keeps them along u, 1 lets them point anywhere.
+float scratches(glm::vec2 uv, int count, float width, float turn, std::uint32_t seed) {
     float deepest = 0.0f;
     for (int i = 0; i < count; ++i) {
-        const float slope = 0.12f * random_signed(i, 0, seed);
+        const glm::vec2 leaning{1.0f,
+                                turn * random_signed(i, 0, seed) * (turn + 2.0f * random01(i, 5, seed))};
+        const float length = std::sqrt(leaning.x * leaning.x + leaning.y * leaning.y);
+        const glm::vec2 direction{leaning.x / length, leaning.y / length};
+        glm::vec2 d{uv.x - random01(i, 2, seed), uv.y - random01(i, 3, seed)};
+        d -= glm::vec2(std::floor(d.x + 0.5f), std::floor(d.y + 0.5f));
+        const float along = d.x * direction.x + d.y * direction.y;
+        const float across = d.y * direction.x - d.x * direction.y;
         const float half_length = mix(0.02f, 0.2f, random01(i, 1, seed));
-        float along = uv.x - random01(i, 2, seed);
-        along -= std::floor(along + 0.5f);
-        if (std::abs(along) > half_length) continue;
-        float across = uv.y - random01(i, 3, seed) - slope * along;
-        across -= std::floor(across + 0.5f);
+        if (std::abs(along) > half_length || std::abs(across) > width) continue;
         const float profile = 1.0f - smoothstep(0.3f * width, width, std::abs(across));
-        const float ends = 1.0f - smoothstep(0.6f, 1.0f, std::abs(along) / half_length);
+        const float ends = 1.0f - smoothstep(0.3f, 1.0f, std::abs(along) / half_length);
         deepest = std::max(deepest, profile * ends * mix(0.3f, 1.0f, random01(i, 4, seed)));
     }
     return deepest;
@@ -40,10 +42,10 @@ SurfacePoint worn_paint_at(glm::vec2 uv) {
     static constexpr glm::vec3 kRust{0.150f, 0.048f, 0.014f};
     static constexpr float kCoat = 0.0022f;  // thickness of paint and primer together, in tiles
     const float wear = fractal_noise(warped(uv, 4, 0.03f, 11), 4, 7, 12) +
-                       0.35f * fractal_noise(uv, 24, 4, 13) + 0.9f * scratches(uv, 26, 0.0022f, 14);
-    const float bare = smoothstep(0.50f, 0.53f, wear);
-    const float primer = smoothstep(0.42f, 0.44f, wear);
-    const float stain = smoothstep(0.18f, 0.46f, wear + 0.2f * fractal_noise(uv, 12, 4, 15)) * (1.0f - bare);
+                       0.35f * fractal_noise(uv, 24, 4, 13) + 0.75f * scratches(uv, 60, 0.0022f, 1.0f, 14);
+    const float bare = smoothstep(0.43f, 0.46f, wear);
+    const float primer = smoothstep(0.36f, 0.38f, wear);
+    const float stain = smoothstep(0.12f, 0.42f, wear + 0.2f * fractal_noise(uv, 12, 4, 15)) * (1.0f - bare);
     const float rust = smoothstep(0.15f, 0.5f, fractal_noise(uv, 18, 5, 16)) * bare;
     const float fade = saturate(0.5f + 0.8f * fractal_noise(uv, 3, 4, 17));
     const float peel = gradient_noise(uv, glm::ivec2(90), 18);
@@ -63,10 +65,10 @@ SurfacePoint worn_paint_at(glm::vec2 uv) {
 }
 
 SurfacePoint rusted_iron_at(glm::vec2 uv) {
-    static constexpr glm::vec3 kDark{0.060f, 0.020f, 0.009f};
-    static constexpr glm::vec3 kRust{0.230f, 0.072f, 0.020f};
-    static constexpr glm::vec3 kOrange{0.420f, 0.165f, 0.045f};
-    const glm::vec2 bent = warped(uv, 5, 0.035f, 31);
+    static constexpr glm::vec3 kDark{0.055f, 0.019f, 0.009f};
+    static constexpr glm::vec3 kRust{0.181f, 0.057f, 0.017f};
+    static constexpr glm::vec3 kOrange{0.380f, 0.145f, 0.040f};
+    const glm::vec2 bent = warped(uv, 4, 0.09f, 31);
     const float spread = fractal_noise(bent, 3, 8, 32) + 0.25f * fractal_noise(uv, 40, 4, 33);
     const float rust = smoothstep(-0.06f, 0.10f, spread);
     const float grain = fractal_noise(uv, 70, 4, 34);
@@ -130,7 +132,7 @@ std::vector<MapPicture> brushed_steel(int size) {
     const Surface surface = make_surface(size, [](glm::vec2 uv) {
         const float lines = brushing(uv, 1);
         const float wide = fractal_noise(uv, {2, 12}, 3, 4);
-        const float scratch = scratches(uv, 40, 0.0016f, 5);
+        const float scratch = scratches(uv, 40, 0.0016f, 0.1f, 5);
         SurfacePoint point;
         point.albedo = kIronF0;
         point.metallic = 1.0f;

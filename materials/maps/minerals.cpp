@@ -91,7 +91,7 @@ SurfacePoint terrazzo_at(glm::vec2 uv) {
 SurfacePoint lava_at(glm::vec2 uv) {
     static constexpr glm::vec3 kCrust{0.030f, 0.027f, 0.026f};
     static constexpr glm::vec3 kAsh{0.110f, 0.100f, 0.095f};
-    // Linear Rec. 709 of a glowing body at about 900 and 1200 °C, scaled to 1 in red.
+    // By eye after glowing rock; red is 1, the preset's value says how bright that is.
     static constexpr glm::vec3 kRedHeat{1.0f, 0.090f, 0.002f};
     static constexpr glm::vec3 kYellowHeat{1.0f, 0.330f, 0.035f};
     const glm::vec2 bent = warped(uv, 6, 0.035f, 81);

@@ -65,8 +65,8 @@ SurfacePoint cloth_at(glm::vec2 uv) {
 
 SurfacePoint oak_at(glm::vec2 uv) {
     static constexpr int kRows = 5;
-    static constexpr glm::vec3 kLight{0.480f, 0.270f, 0.115f};
-    static constexpr glm::vec3 kDark{0.235f, 0.105f, 0.036f};
+    static constexpr glm::vec3 kLight{0.440f, 0.215f, 0.078f};
+    static constexpr glm::vec3 kDark{0.165f, 0.062f, 0.018f};
     const float v = uv.y * static_cast<float>(kRows);
     const int row = static_cast<int>(v);
     // Each row is two planks long and starts elsewhere.
@@ -88,7 +88,7 @@ SurfacePoint oak_at(glm::vec2 uv) {
         smoothstep(0.30f, 0.62f, gradient_noise(shifted, {26, 330}, 108)) * (0.35f + 0.65f * late_wood);
 
     SurfacePoint point;
-    const float tone = saturate(0.12f + 0.42f * late_wood + 0.20f * fine + 0.30f * (own(109) - 0.3f));
+    const float tone = saturate(0.12f + 0.42f * late_wood + 0.20f * fine + 0.55f * (own(109) - 0.35f));
     point.albedo = mix(kLight, kDark, tone) * (1.0f - 0.45f * pores) * (0.82f + 0.32f * own(110)) *
                    mix(0.15f, 1.0f, board);
     point.roughness = saturate(mix(0.85f, 0.30f + 0.10f * pores + 0.05f * fine + 0.05f * own(111), board));
