@@ -91,7 +91,7 @@ SurfacePoint rusted_iron_at(glm::vec2 uv) {
 /// Dents of a round hammer: each point lies in the lowest of the bowls around it, with the ridges between
 /// them rounded.
 float hammer_marks(glm::vec2 uv, int cells, std::uint32_t seed) {
-    static constexpr float kRounding = 0.10f;
+    static constexpr float kRounding = 0.16f;
     const glm::vec2 p = uv * static_cast<float>(cells);
     const glm::ivec2 home{static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y))};
     float lowest = 4.0f;
@@ -112,17 +112,18 @@ float hammer_marks(glm::vec2 uv, int cells, std::uint32_t seed) {
 SurfacePoint hammered_copper_at(glm::vec2 uv) {
     static constexpr glm::vec3 kCopperF0{0.955f, 0.638f, 0.538f};
     static constexpr glm::vec3 kOxide{0.300f, 0.110f, 0.060f};
-    const float marks = hammer_marks(uv, 9, 41);
-    const float cloud = fractal_noise(uv, 4, 6, 42);
-    const float ridge = smoothstep(0.30f, 0.62f, marks);
+    const float marks = hammer_marks(uv, 12, 41);
+    const float cloud = fractal_noise(warped(uv, 4, 0.06f, 45), 3, 7, 42);
+    // The ridges are rubbed bright, the hollows keep their skin.
+    const float hollow = 1.0f - smoothstep(0.05f, 0.45f, marks);
     const float oxide =
-        saturate(0.10f + 0.45f * ridge * (0.6f + cloud) + 0.22f * smoothstep(0.0f, 0.6f, cloud));
+        saturate(0.06f + 0.25f * hollow * (0.7f + cloud) + 0.30f * smoothstep(-0.1f, 0.7f, cloud));
 
     SurfacePoint point;
     point.albedo = mix(kCopperF0, kOxide, oxide);
     point.metallic = 1.0f;
     point.roughness = saturate(0.14f + 0.45f * oxide + 0.03f * fractal_noise(uv, 50, 3, 43));
-    point.height = 0.020f * marks + 0.00012f * fractal_noise(uv, 40, 3, 44);
+    point.height = 0.0115f * marks + 0.00012f * fractal_noise(uv, 40, 3, 44);
     return point;
 }
 

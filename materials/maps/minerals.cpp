@@ -92,8 +92,8 @@ SurfacePoint lava_at(glm::vec2 uv) {
     static constexpr glm::vec3 kCrust{0.030f, 0.027f, 0.026f};
     static constexpr glm::vec3 kAsh{0.110f, 0.100f, 0.095f};
     // By eye after glowing rock; red is 1, the preset's value says how bright that is.
-    static constexpr glm::vec3 kRedHeat{1.0f, 0.090f, 0.002f};
-    static constexpr glm::vec3 kYellowHeat{1.0f, 0.330f, 0.035f};
+    static constexpr glm::vec3 kRedHeat{1.0f, 0.055f, 0.0f};
+    static constexpr glm::vec3 kYellowHeat{1.0f, 0.340f, 0.025f};
     const glm::vec2 bent = warped(uv, 6, 0.035f, 81);
     const Cell plate = cell_noise(bent, 7, 0.85f, 82);
     const Cell crack = cell_noise(warped(uv, 14, 0.016f, 83), 19, 0.9f, 84);

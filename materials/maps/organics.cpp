@@ -65,8 +65,8 @@ SurfacePoint cloth_at(glm::vec2 uv) {
 
 SurfacePoint oak_at(glm::vec2 uv) {
     static constexpr int kRows = 5;
-    static constexpr glm::vec3 kLight{0.440f, 0.215f, 0.078f};
-    static constexpr glm::vec3 kDark{0.165f, 0.062f, 0.018f};
+    static constexpr glm::vec3 kLight{0.430f, 0.225f, 0.095f};
+    static constexpr glm::vec3 kDark{0.150f, 0.058f, 0.020f};
     const float v = uv.y * static_cast<float>(kRows);
     const int row = static_cast<int>(v);
     // Each row is two planks long and starts elsewhere.
@@ -92,9 +92,9 @@ SurfacePoint oak_at(glm::vec2 uv) {
     point.albedo = mix(kLight, kDark, tone) * (1.0f - 0.45f * pores) * (0.82f + 0.32f * own(110)) *
                    mix(0.15f, 1.0f, board);
     point.roughness = saturate(mix(0.85f, 0.30f + 0.10f * pores + 0.05f * fine + 0.05f * own(111), board));
-    const float bevel = smoothstep(0.0f, 0.008f, gap);
+    const float bevel = smoothstep(0.0f, 0.005f, gap);
     point.height =
-        0.0030f * board + 0.0016f * bevel + 0.00012f * fine - 0.00035f * pores - 0.00012f * late_wood;
+        0.0030f * board + 0.0010f * bevel + 0.00012f * fine - 0.00035f * pores - 0.00012f * late_wood;
     return point;
 }
 
