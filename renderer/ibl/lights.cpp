@@ -199,7 +199,7 @@ FoldedLight prepare(const Geometry& geometry, const std::vector<LightTexel>& tex
     folded.near_cosine = float(std::cos(std::min(kPi, extent + 8.0 * size)));
     folded.far_cosine = float(std::cos(std::min(kPi, 100.0 * extent)));
     folded.horizon = float(2.0 * extent);  // the kernel has a kink there
-    folded.fine = make_points(geometry, texels, std::clamp(int(std::ceil(2.0 * size / alpha)), 1, 32));
+    folded.fine = make_points(geometry, texels, std::clamp(int(std::ceil(2.0 * size / alpha)), 4, 32));
     folded.texels = make_points(geometry, texels, 1);
     folded.point.add(light.direction, light.irradiance);
     return folded;
@@ -268,10 +268,10 @@ void fold_back(const LightExtraction& extraction, float roughness, CubeMap& cube
             glm::vec3 sum(0.0f);
             for (const FoldedLight& light : lights) {
                 const float cosine = glm::dot(N, light.direction);
-                const bool is_far = cosine < light.far_cosine && std::abs(cosine) > light.horizon;
-                const LightPoints& points = cosine > light.near_cosine ? light.fine
-                                            : is_far                   ? light.point
-                                                                       : light.texels;
+                const bool is_near = cosine > light.near_cosine || std::abs(cosine) < light.horizon;
+                const LightPoints& points = is_near                     ? light.fine
+                                            : cosine > light.far_cosine ? light.texels
+                                                                        : light.point;
                 sum += sum_points(points, N, alpha2);
             }
             cube.texels[std::size_t(row) * cube.size + x] += scale * sum;
