@@ -24,12 +24,12 @@ Mesh named_mesh(const char* name) {
 
 /// 192 × 96: the silhouette stays within a tenth of a pixel of the circle up to 1500 pixels.
 Mesh make_sphere() {
-    constexpr int kStacks = 96;
+    constexpr int stacks = 96;
     std::vector<ProfilePoint> profile;
-    for (int j = 0; j <= kStacks; ++j) {
-        const double v = double(j) / kStacks;
+    for (int j = 0; j <= stacks; ++j) {
+        const double v = double(j) / stacks;
         const double latitude = (v - 0.5) * kPi;
-        const bool pole = j == 0 || j == kStacks;
+        const bool pole = j == 0 || j == stacks;
         const glm::dvec2 p(pole ? 0.0 : std::cos(latitude), std::sin(latitude));
         profile.push_back({p, p, v});
     }
@@ -57,12 +57,12 @@ struct BevelStation {
 /// Each face owns its bevels up to their middle (45°), with uvs proportional to length, so a picture covers
 /// all of it.
 Mesh make_cube() {
-    constexpr double kRoundness = 0.16;  // r / h
-    constexpr int kArc = 8;
-    constexpr int kFlat = 8;
+    constexpr double roundness = 0.16;  // r / h
+    constexpr int arc_steps = 8;
+    constexpr int flat_steps = 8;
     const double h =
-        1.0 / (std::numbers::sqrt3 * (1.0 - kRoundness) + kRoundness);  // corners touch the unit sphere
-    const double r = kRoundness * h;
+        1.0 / (std::numbers::sqrt3 * (1.0 - roundness) + roundness);  // corners touch the unit sphere
+    const double r = roundness * h;
     const double core = h - r;
     const double half_length = core + r * kPi / 4.0;
 
@@ -70,10 +70,11 @@ Mesh make_cube() {
     const auto add = [&](double s, double tangent, double length) {
         stations.push_back({s, tangent, 0.5 + 0.5 * length / half_length});
     };
-    const auto lean = [](int k) { return k == kArc ? 1.0 : std::tan(kPi / 4.0 * k / kArc); };
-    for (int k = kArc; k > 0; --k) add(-core, -lean(k), -core - r * kPi / 4.0 * k / kArc);
-    for (int k = 0; k <= kFlat; ++k) add(core * (2.0 * k / kFlat - 1.0), 0.0, core * (2.0 * k / kFlat - 1.0));
-    for (int k = 1; k <= kArc; ++k) add(core, lean(k), core + r * kPi / 4.0 * k / kArc);
+    const auto lean = [](int k) { return k == arc_steps ? 1.0 : std::tan(kPi / 4.0 * k / arc_steps); };
+    for (int k = arc_steps; k > 0; --k) add(-core, -lean(k), -core - r * kPi / 4.0 * k / arc_steps);
+    for (int k = 0; k <= flat_steps; ++k)
+        add(core * (2.0 * k / flat_steps - 1.0), 0.0, core * (2.0 * k / flat_steps - 1.0));
+    for (int k = 1; k <= arc_steps; ++k) add(core, lean(k), core + r * kPi / 4.0 * k / arc_steps);
 
     Mesh mesh = named_mesh("cube");
     const auto side = std::uint32_t(stations.size());
@@ -100,18 +101,19 @@ Mesh make_cube() {
 
 /// Leans towards the viewer so that the default camera sees the hole; v = ½ runs along the outer equator.
 Mesh make_torus() {
-    constexpr double kTube = 0.3;
-    constexpr int kAround = 96;
-    constexpr double kLean = 50.0 / 180.0 * kPi;
+    constexpr double tube = 0.3;
+    constexpr int around = 96;
+    constexpr double lean_angle = 50.0 / 180.0 * kPi;
     std::vector<ProfilePoint> profile;
-    for (int j = 0; j <= kAround; ++j) {
-        const glm::dvec2 d = lathe_direction(double(j % kAround) / kAround);
+    for (int j = 0; j <= around; ++j) {
+        const glm::dvec2 d = lathe_direction(double(j % around) / around);
         const glm::dvec2 normal(d.y, d.x);  // angle 2πv − π around the tube
-        profile.push_back({glm::dvec2(1.0 - kTube, 0.0) + kTube * normal, normal, double(j) / kAround});
+        profile.push_back({glm::dvec2(1.0 - tube, 0.0) + tube * normal, normal, double(j) / around});
     }
     Mesh mesh = named_mesh("torus");
     append_lathe(mesh, profile);
-    const glm::dmat3 lean(1, 0, 0, 0, std::cos(kLean), std::sin(kLean), 0, -std::sin(kLean), std::cos(kLean));
+    const glm::dmat3 lean(1, 0, 0, 0, std::cos(lean_angle), std::sin(lean_angle), 0, -std::sin(lean_angle),
+                          std::cos(lean_angle));
     for (Vertex& vertex : mesh.vertices) {
         vertex.position = glm::vec3(lean * glm::dvec3(vertex.position));
         vertex.normal = glm::vec3(lean * glm::dvec3(vertex.normal));

@@ -1,8 +1,11 @@
 #include "renderer/core/mesh_guard.h"
 #include "renderer/core/mesh_text.h"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace patina {
 namespace {
@@ -20,6 +23,7 @@ public:
         total_ = seen_;
         seen_ = {};
         for_each_line([&](Span line) { check_face(line); });
+        if (!bridged_.empty()) append_bridged();
         write_notes();
         return std::move(file_);
     }
@@ -129,14 +133,16 @@ private:
         if (keyword != "f") return;
         ++file_.faces;
         if (file_.faces > kMaxMeshFaces) refuse("more than 100 million faces are not supported.");
-        std::size_t corners = 0;
+        const Span words = rest;
+        face_.clear();
         bool in_range = true;
-        for (Span word = next_word(file_.text, rest); !word.empty(); word = next_word(file_.text, rest)) {
+        for (Span word = next_word(file_.text, rest); !word.empty(); word = next_word(file_.text, rest))
             in_range = check_corner(word) && in_range;
-            ++corners;
-        }
-        if (corners < 3 && cut_off_) refuse("a face needs three corners.");
-        if (corners >= 3 && in_range) return;
+        if (face_.size() < 3 && cut_off_) refuse("a face needs three corners.");
+        if (in_range && face_.size() > 3 && repeats_a_position())
+            keep_bridged(words);
+        else if (in_range && face_.size() >= 3)
+            return;
         overwrite(file_.text, line, "");
         if (in_range) return;
         ++out_of_range_;
@@ -171,7 +177,62 @@ private:
             overwrite(file_.text, word, kept);
             if (single_texcoords_ == 0 || (normal_index && !keep_normal)) ++lost_attributes_;
         }
+        face_.push_back(*index < 0 ? seen_.positions + *index + 1 : *index);
         return in_range(*index, seen_.positions, total_.positions);
+    }
+
+    bool repeats_a_position() {
+        std::sort(face_.begin(), face_.end());
+        return std::adjacent_find(face_.begin(), face_.end()) != face_.end();
+    }
+
+    /// A polygon with a hole is often written as one loop that runs along a bridge twice. The reader takes
+    /// the second visit to a vertex out, so such faces are set aside, with indices that hold anywhere in the
+    /// file …
+    void keep_bridged(Span words) {
+        std::vector<std::pair<std::int64_t, std::string>>& face = bridged_.emplace_back();
+        const auto absolute = [](std::int64_t index, std::int64_t seen) {
+            return index < 0 ? seen + index + 1 : index;
+        };
+        for (Span word = next_word(file_.text, words); !word.empty(); word = next_word(file_.text, words)) {
+            const std::string_view corner = word.of(file_.text);
+            const std::size_t first = std::min(corner.find('/'), corner.size());
+            const std::size_t second = std::min(corner.find('/', first + 1), corner.size());
+            const auto position = parse_integer(corner.substr(0, first));
+            const auto uv = parse_integer(
+                corner.substr(std::min(first + 1, second), second - std::min(first + 1, second)));
+            const auto normal = parse_integer(corner.substr(std::min(second + 1, corner.size())));
+            std::string rest = uv || normal ? "/" : "";
+            if (uv) rest += std::to_string(absolute(*uv, seen_.texcoords));
+            if (normal) rest += "/" + std::to_string(absolute(*normal, seen_.normals));
+            face.emplace_back(absolute(*position, seen_.positions), rest);
+        }
+    }
+
+    /// … and appended with a copy of the vertex for every further visit.
+    void append_bridged() {
+        std::vector<std::string> vertices;
+        for_each_line([&](Span line) {
+            if (next_word(file_.text, line).of(file_.text) == "v") vertices.emplace_back(line.of(file_.text));
+        });
+        std::string more;
+        for (const auto& face : bridged_) {
+            std::set<std::int64_t> visited;
+            std::string line = "\nf";
+            for (const auto& [position, rest] : face) {
+                std::int64_t index = position;
+                if (!visited.insert(position).second) {
+                    more += "\nv" + vertices[std::size_t(position - 1)];
+                    index = ++total_.positions;
+                    const auto& lost = file_.lost_positions;
+                    if (std::find(lost.begin(), lost.end(), std::uint32_t(position - 1)) != lost.end())
+                        file_.lost_positions.push_back(std::uint32_t(index - 1));
+                }
+                line += " " + std::to_string(index) + rest;
+            }
+            more += line;
+        }
+        file_.text += more + "\n";
     }
 
     void write_notes() {
@@ -186,6 +247,8 @@ private:
 
     GuardedFile file_;
     Counts seen_, total_;
+    std::vector<std::int64_t> face_;  ///< positions of the face at hand
+    std::vector<std::vector<std::pair<std::int64_t, std::string>>> bridged_;
     std::size_t line_number_ = 0;
     bool cut_off_ = false;  ///< the line at hand is the last and has no end
     std::size_t single_texcoords_ = 0, lost_texcoords_ = 0, lost_attributes_ = 0, out_of_range_ = 0;

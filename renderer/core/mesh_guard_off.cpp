@@ -56,7 +56,7 @@ private:
 
     void read_header() {
         Span line = filled_line("the header");
-        if (line.begin != 0) refuse("the first line has to say OFF.");
+        if (line.begin != 0 || is_space(file_.text[0])) refuse("the first line has to say OFF.");
         std::string_view kind = next_word(file_.text, line).of(file_.text);
         if (kind.starts_with("ST")) {
             texcoords_ = true;

@@ -51,7 +51,7 @@ void give_meaning(Property& property, const std::string& element) {
         std::string_view name, known_as;
         Meaning meaning;
     };
-    static constexpr std::array kRows{
+    static constexpr std::array rows{
         Row{"x", "x", Meaning::Position},    Row{"y", "y", Meaning::Position},
         Row{"z", "z", Meaning::Position},    Row{"nx", "nx", Meaning::Normal},
         Row{"ny", "ny", Meaning::Normal},    Row{"nz", "nz", Meaning::Normal},
@@ -66,7 +66,7 @@ void give_meaning(Property& property, const std::string& element) {
             property.meaning = Meaning::CornerUvs;
     }
     if (element != "vertex" || property.count) return;
-    for (const Row& row : kRows)
+    for (const Row& row : rows)
         if (property.name == row.name) {
             property.name = row.known_as;
             property.meaning = row.meaning;

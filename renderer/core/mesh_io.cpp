@@ -262,9 +262,9 @@ std::string load_text(const fs::path& file) {
         throw std::runtime_error(path_text(file) + ": more than 4 GiB are not supported.");
     const std::vector<std::byte> bytes = read_file(file);
     const auto* begin = reinterpret_cast<const char*>(bytes.data());
-    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
     std::string_view text(begin, bytes.size());
-    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
     return std::string(text);
 }
 

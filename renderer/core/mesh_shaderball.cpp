@@ -81,20 +81,21 @@ constexpr double kBallRadius = 0.74;
 Profile ball_profile() {
     const Circle ball{{0.0, 0.0}, kBallRadius};
     const Circle bowl{{0.0, 0.62}, 0.47, -1.0};
-    constexpr double kLip = 0.028;
-    const Circle lip{meeting_point({ball.center, ball.radius - kLip}, {bowl.center, bowl.radius + kLip}),
-                     kLip};
+    constexpr double lip_radius = 0.028;
+    const Circle lip{
+        meeting_point({ball.center, ball.radius - lip_radius}, {bowl.center, bowl.radius + lip_radius}),
+        lip_radius};
 
-    constexpr double kGrooveLatitude = 12.0 / 180.0 * kPi;
-    constexpr double kFillet = 0.02;
-    const Circle groove{(kBallRadius + 0.005) * direction(kGrooveLatitude), 0.042, -1.0};
+    constexpr double groove_latitude = 12.0 / 180.0 * kPi;
+    constexpr double fillet_radius = 0.02;
+    const Circle groove{(kBallRadius + 0.005) * direction(groove_latitude), 0.042, -1.0};
     const auto fillet_beside =
         [&](double side) {  // at an angle δ from the groove's middle, by the law of cosines
-            const double a = kBallRadius - kFillet;
+            const double a = kBallRadius - fillet_radius;
             const double b = glm::length(groove.center);
-            const double c = groove.radius + kFillet;
+            const double c = groove.radius + fillet_radius;
             const double delta = std::acos((a * a + b * b - c * c) / (2.0 * a * b));
-            return Circle{a * direction(kGrooveLatitude + side * delta), kFillet};
+            return Circle{a * direction(groove_latitude + side * delta), fillet_radius};
         };
     const Circle below = fillet_beside(-1.0);
     const Circle above = fillet_beside(1.0);
@@ -130,9 +131,9 @@ Profile stand_profile() {
 
 Profile collar_profile() {
     Profile profile;
-    constexpr int kSegments = 24;
-    for (int i = 0; i <= kSegments; ++i) {  // from the inside around; both ends exactly one point
-        const glm::dvec2 d = direction(kPi + 2.0 * kPi * (i % kSegments) / kSegments);
+    constexpr int segments = 24;
+    for (int i = 0; i <= segments; ++i) {  // from the inside around; both ends exactly one point
+        const glm::dvec2 d = direction(kPi + 2.0 * kPi * (i % segments) / segments);
         profile.push_back({glm::dvec2(0.212, -0.505) + 0.036 * d, d});
     }
     return finished(std::move(profile));
@@ -148,26 +149,29 @@ void place(Mesh& mesh, std::size_t first_vertex, const glm::dmat3& turn, const g
 
 /// The axis leans towards the viewer and a little to the right.
 glm::dmat3 ball_turn() {
-    constexpr double kLean = 48.0 / 180.0 * kPi;
-    constexpr double kYaw = 18.0 / 180.0 * kPi;
-    const glm::dmat3 lean(1, 0, 0, 0, std::cos(kLean), std::sin(kLean), 0, -std::sin(kLean), std::cos(kLean));
-    const glm::dmat3 yaw(std::cos(kYaw), 0, -std::sin(kYaw), 0, 1, 0, std::sin(kYaw), 0, std::cos(kYaw));
+    constexpr double lean_angle = 48.0 / 180.0 * kPi;
+    constexpr double yaw_angle = 18.0 / 180.0 * kPi;
+    const glm::dmat3 lean(1, 0, 0, 0, std::cos(lean_angle), std::sin(lean_angle), 0, -std::sin(lean_angle),
+                          std::cos(lean_angle));
+    const glm::dmat3 yaw(std::cos(yaw_angle), 0, -std::sin(yaw_angle), 0, 1, 0, std::sin(yaw_angle), 0,
+                         std::cos(yaw_angle));
     return yaw * lean;
 }
 
 }  // namespace
 
 Mesh make_shaderball() {
-    constexpr double kPearl = 0.27;
-    constexpr glm::dvec3 kBallCenter(0.0, 0.22, 0.0);
+    constexpr double pearl_radius = 0.27;
+    constexpr glm::dvec3 ball_center(0.0, 0.22, 0.0);
     const glm::dmat3 turn = ball_turn();
     Mesh mesh;
     mesh.name = "shaderball";
     append_lathe(mesh, ball_profile());
-    place(mesh, 0, turn, kBallCenter);
+    place(mesh, 0, turn, ball_center);
     const std::size_t pearl = mesh.vertices.size();
-    append_lathe(mesh, pearl_profile(kPearl), {.segments = 96});
-    place(mesh, pearl, glm::dmat3(1.0), kBallCenter + turn * glm::dvec3(0.0, 0.15 + kPearl - 0.01, 0.0));
+    append_lathe(mesh, pearl_profile(pearl_radius), {.segments = 96});
+    place(mesh, pearl, glm::dmat3(1.0),
+          ball_center + turn * glm::dvec3(0.0, 0.15 + pearl_radius - 0.01, 0.0));
     append_lathe(mesh, stand_profile(), {.segments = 128});
     append_lathe(mesh, collar_profile(), {.segments = 128});
     normalize_to_unit_sphere(mesh);

@@ -12,15 +12,15 @@ namespace patina {
 /// look them up. Open addressing with linear probing, at most half full. Precondition: count < 2³² − 1.
 template <class Hash, class Same>
 std::vector<std::uint32_t> weld_by(std::size_t count, const Hash& hash, const Same& same) {
-    constexpr std::uint32_t kFree = 0xffffffffu;
+    constexpr std::uint32_t free_slot = 0xffffffffu;
     const std::size_t mask = std::bit_ceil(count * 2 + 2) - 1;
-    std::vector<std::uint32_t> first_with(mask + 1, kFree);
+    std::vector<std::uint32_t> first_with(mask + 1, free_slot);
     std::vector<std::uint32_t> number(count);
     std::uint32_t next = 0;
     for (std::size_t i = 0; i < count; ++i) {
         std::size_t slot = hash(i) & mask;
-        while (first_with[slot] != kFree && !same(first_with[slot], i)) slot = (slot + 1) & mask;
-        if (first_with[slot] == kFree) {
+        while (first_with[slot] != free_slot && !same(first_with[slot], i)) slot = (slot + 1) & mask;
+        if (first_with[slot] == free_slot) {
             first_with[slot] = std::uint32_t(i);
             number[i] = next++;
         } else {

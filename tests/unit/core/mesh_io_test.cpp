@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <clocale>
+#include <atomic>
+#include <chrono>
 #include <cmath>
-#include <functional>
+#include <cstdio>
 #include <locale>
-#include <set>
 #include <thread>
 
 namespace patina {
@@ -124,6 +124,23 @@ TEST(MeshObj, keeps_faces_around_an_edge_or_vertex_that_a_half_edge_mesh_cannot_
     EXPECT_TRUE(says(hourglass.notes, "Normals"));
     const Mesh moebius = loaded("turned.obj", std::string(kTriangle) + "v 2 2 0\nf 1 2 3\nf 2 3 4\n");
     EXPECT_EQ(moebius.indices.size(), 6u);
+}
+
+TEST(MeshObj, keeps_the_hole_of_a_polygon_that_visits_vertices_twice) {
+    const std::string points =
+        "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 1 1 0\nv 1 3 0\nv 3 3 0\nv 3 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\n";
+    const double scale = 1.0 / 8.0;  // the enclosing circle has the radius √8
+    for (const char* face :
+         {"f 1 2 3 4 1 5 6 7 8 5", "f -8//-1 2//1 3//1 4//1 1//1 5//1 6//1 7//1 8//1 -4//-1\n",
+          "f 1/1/1 2/2/1 3/1/1 4/1/1 1/1/1 5/2/1 6/1/1 7/1/1 8/1/1 5/-1/1\nv 9 9 9\nvt 7 7\n"}) {
+        const Mesh mesh = loaded("hole.obj", points + face);
+        EXPECT_EQ(mesh.indices.size(), 24u) << face;
+        EXPECT_NEAR(area(mesh), 12.0 * scale, 1e-6) << face;
+        for (const Vertex& v : mesh.vertices) {
+            EXPECT_EQ(v.normal, glm::vec3(0, 0, 1));
+            EXPECT_LE(v.uv.x, 1.0f);
+        }
+    }
 }
 
 TEST(MeshObj, drops_and_counts_faces_that_show_nothing) {
@@ -261,6 +278,41 @@ TEST(LoadMesh, stops_when_asked) {
     source.request_stop();
     EXPECT_THROW(load_mesh(file, source.get_token()), std::runtime_error);
     EXPECT_NO_THROW(load_mesh(file));
+}
+
+TEST(SlowLoadMesh, takes_near_linear_time_up_to_a_million_triangles) {
+    const MeshFolder folder;
+    const auto seconds_for = [&](std::uint32_t side) {
+        std::string obj;
+        obj.reserve(std::size_t(side) * side * 80);
+        char line[96];
+        for (std::uint32_t j = 0; j <= side; ++j)
+            for (std::uint32_t i = 0; i <= side; ++i) {
+                const double x = double(i) / side;
+                const double y = double(j) / side;
+                const int length = std::snprintf(line, sizeof line, "v %.6f %.6f %.6f\nvt %.6f %.6f\n", x, y,
+                                                 0.05 * std::sin(40 * x) * std::sin(30 * y), x, y);
+                obj.append(line, std::size_t(length));
+            }
+        for (std::uint32_t j = 0; j < side; ++j)
+            for (std::uint32_t i = 0; i < side; ++i) {
+                const std::uint32_t a = j * (side + 1) + i + 1;
+                const std::uint32_t d = a + side + 1;
+                const int length = std::snprintf(line, sizeof line, "f %u/%u %u/%u %u/%u %u/%u\n", a, a,
+                                                 a + 1, a + 1, d + 1, d + 1, d, d);
+                obj.append(line, std::size_t(length));
+            }
+        const auto file = folder.write("grid.obj", obj);
+        const auto begin = std::chrono::steady_clock::now();
+        Mesh mesh = load_mesh(file);
+        make_tangents(mesh);
+        EXPECT_EQ(mesh.indices.size(), std::size_t(side) * side * 6);
+        EXPECT_EQ(mesh.vertices.size(), std::size_t(side + 1) * (side + 1));
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
+    const double quarter = seconds_for(354);
+    const double whole = seconds_for(708);
+    EXPECT_LT(whole, 10.0 * quarter) << quarter << " s and " << whole << " s";  // quadratic time would be 16
 }
 
 TEST(LoadMesh, may_be_called_from_several_threads) {

@@ -211,6 +211,24 @@ TEST(MeshSoup, cuts_one_polygon_alike_wherever_it_begins) {
     }
 }
 
+TEST(MeshSoup, copes_with_a_hundred_thousand_faces_around_one_vertex_or_edge) {
+    constexpr std::uint32_t kFaces = 100000;
+    for (const bool around_an_edge : {false, true}) {
+        PolygonSoup soup;
+        soup.positions = {{0, 0, 1}, {0, 0, -1}};
+        for (std::uint32_t i = 0; i < kFaces; ++i) {
+            const double a = 2 * kPi * i / kFaces;
+            soup.positions.emplace_back(std::cos(a), std::sin(a), 0);
+            const std::uint32_t other = around_an_edge ? 1 : 2 + (i + 1) % kFaces;
+            soup.corner_position.insert(soup.corner_position.end(), {0, 2 + i, other});
+            soup.face_begin.push_back(3 * i + 3);
+        }
+        Mesh mesh = make_mesh(soup);
+        make_tangents(mesh);
+        EXPECT_EQ(mesh.indices.size(), 3 * kFaces);
+    }
+}
+
 TEST(MeshSoup, projects_texture_coordinates_upright_from_six_sides) {
     PolygonSoup soup;
     std::mt19937 random(1);
