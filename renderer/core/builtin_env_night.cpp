@@ -35,11 +35,11 @@ constexpr std::array kBulbs{
 };
 
 glm::vec3 night_sky(float sine_of_elevation) {
-    constexpr glm::vec3 kZenith{0.006f, 0.011f, 0.030f};
-    constexpr glm::vec3 kLow{0.020f, 0.028f, 0.060f};
-    constexpr glm::vec3 kTownGlow{0.110f, 0.062f, 0.030f};
+    constexpr glm::vec3 zenith{0.006f, 0.011f, 0.030f};
+    constexpr glm::vec3 low_sky{0.020f, 0.028f, 0.060f};
+    constexpr glm::vec3 town_glow{0.110f, 0.062f, 0.030f};
     const float low = 1.0f - sine_of_elevation;
-    return kZenith + kLow * (low * low * low) + kTownGlow * std::exp(-sine_of_elevation / 0.07f);
+    return zenith + low_sky * (low * low * low) + town_glow * std::exp(-sine_of_elevation / 0.07f);
 }
 
 std::vector<Disc> bulb_discs() {
@@ -56,15 +56,15 @@ std::vector<Disc> bulb_discs() {
 
 /// What the damp air around the bulbs scatters to the eye: halos that fall off with the angle and end at 14°.
 glm::vec3 halos(const std::vector<Disc>& bulbs, const glm::vec3& direction) {
-    constexpr float kCore = 0.02f * 0.02f;  // squared distance (2 − 2 cos) of half brightness
-    constexpr float kEnd = 0.06f;
-    constexpr float kShare = 0.0012f;
+    constexpr float core = 0.02f * 0.02f;  // squared distance (2 − 2 cos) of half brightness
+    constexpr float end = 0.06f;
+    constexpr float share = 0.0012f;
     glm::vec3 sum(0.0f);
     for (const Disc& bulb : bulbs) {
         const float square = 2.0f - 2.0f * glm::dot(direction, bulb.direction);
-        const float fade = 1.0f - square / kEnd;
+        const float fade = 1.0f - square / end;
         if (fade > 0.0f)
-            sum += bulb.radiance * (kShare * fade * fade * kCore / (kCore + std::max(square, 0.0f)));
+            sum += bulb.radiance * (share * fade * fade * core / (core + std::max(square, 0.0f)));
     }
     return sum;
 }
@@ -83,13 +83,13 @@ glm::vec3 lit_ground(const glm::vec3& point) {
 
 /// Far windows and lanterns along the horizon, spread by the golden ratio.
 void add_town(Environment& environment) {
-    constexpr int kWindows = 72;
-    constexpr std::array kColors{glm::vec3(1.0f, 0.72f, 0.40f), glm::vec3(1.0f, 0.86f, 0.66f),
-                                 glm::vec3(1.0f, 0.52f, 0.16f), glm::vec3(0.70f, 0.85f, 1.0f),
-                                 glm::vec3(1.0f, 0.80f, 0.52f)};
-    constexpr float kGolden = 0.61803399f;
-    for (int i = 0; i < kWindows; ++i) {
-        const float turn = static_cast<float>(i) * kGolden;
+    constexpr int windows = 72;
+    constexpr std::array colors{glm::vec3(1.0f, 0.72f, 0.40f), glm::vec3(1.0f, 0.86f, 0.66f),
+                                glm::vec3(1.0f, 0.52f, 0.16f), glm::vec3(0.70f, 0.85f, 1.0f),
+                                glm::vec3(1.0f, 0.80f, 0.52f)};
+    constexpr float golden = 0.61803399f;
+    for (int i = 0; i < windows; ++i) {
+        const float turn = static_cast<float>(i) * golden;
         const float spread = static_cast<float>(i) * 0.75487767f;
         const float height = 0.055f * (spread - std::floor(spread)) - 0.004f;
         const float azimuth = 2.0f * kPi * (turn - std::floor(turn));
@@ -97,7 +97,7 @@ void add_town(Environment& environment) {
         add_disc(environment,
                  {.direction = glm::normalize(glm::vec3(std::sin(azimuth), height, -std::cos(azimuth))),
                   .angular_radius = 0.0026f,
-                  .radiance = brightness * kColors[i % kColors.size()]});
+                  .radiance = brightness * colors[i % colors.size()]});
     }
 }
 

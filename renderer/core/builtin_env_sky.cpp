@@ -23,27 +23,27 @@ struct Daylight {
 
 /// Light on the ground: ∫ L cos θ dω over the upper half, and the sun.
 glm::vec3 ground_irradiance(const PreethamSky& sky) {
-    constexpr int kRings = 64;
-    constexpr int kSectors = 128;
+    constexpr int rings = 64;
+    constexpr int sectors = 128;
     glm::vec3 sum(0.0f);
-    for (int i = 0; i < kRings; ++i) {
+    for (int i = 0; i < rings; ++i) {
         // Equal steps of sin² θ make every sample weigh the same: cos θ dω = ½ d(sin² θ) dφ.
-        const float sine_squared = (static_cast<float>(i) + 0.5f) / kRings;
+        const float sine_squared = (static_cast<float>(i) + 0.5f) / rings;
         const float sine = std::sqrt(sine_squared);
-        for (int j = 0; j < kSectors; ++j) {
-            const float azimuth = 2.0f * kPi * (static_cast<float>(j) + 0.5f) / kSectors;
+        for (int j = 0; j < sectors; ++j) {
+            const float azimuth = 2.0f * kPi * (static_cast<float>(j) + 0.5f) / sectors;
             sum += sky.radiance(
                 {sine * std::sin(azimuth), std::sqrt(1.0f - sine_squared), sine * std::cos(azimuth)});
         }
     }
     const float sun_solid_angle = 2.0f * kPi * (1.0f - std::cos(kSunAngularRadius));
-    return sum * (kPi / (kRings * kSectors)) + sky.sun_radiance() * (sun_solid_angle * sky.sun_direction().y);
+    return sum * (kPi / (rings * sectors)) + sky.sun_radiance() * (sun_solid_angle * sky.sun_direction().y);
 }
 
 /// Far ground is seen through air as bright as the horizon: how much of it is ground.
 float ground_clarity(float sine_below) {
-    constexpr float kHaze = 0.04f;
-    return 1.0f - 0.75f * std::exp(-sine_below / kHaze);
+    constexpr float haze = 0.04f;
+    return 1.0f - 0.75f * std::exp(-sine_below / haze);
 }
 
 Environment make_daylight(int width, const Daylight& daylight) {
@@ -81,12 +81,12 @@ Environment make_sunset(int width) {
 }
 
 Environment make_overcast(int width) {
-    constexpr glm::vec3 kZenith{1.36f, 1.40f, 1.48f};
-    constexpr glm::vec3 kGroundAlbedo{0.25f, 0.24f, 0.22f};
+    constexpr glm::vec3 zenith{1.36f, 1.40f, 1.48f};
+    constexpr glm::vec3 ground_albedo{0.25f, 0.24f, 0.22f};
     // Under the overcast sky of unit zenith the ground receives 7π/9.
-    const glm::vec3 ground = kGroundAlbedo * kZenith * (7.0f / 9.0f);
+    const glm::vec3 ground = ground_albedo * zenith * (7.0f / 9.0f);
     return paint_environment(width, [=](const glm::vec3& direction) -> Sight {
-        const glm::vec3 sky = kZenith * overcast_luminance(std::max(direction.y, 0.0f));
+        const glm::vec3 sky = zenith * overcast_luminance(std::max(direction.y, 0.0f));
         if (direction.y >= 0.0f) return {sky, 0};
         return {glm::mix(sky, ground, ground_clarity(-direction.y)), 1};
     });

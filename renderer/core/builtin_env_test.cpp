@@ -49,9 +49,9 @@ float stroke_distance(glm::vec2 point, const Stroke& stroke) {
 }
 
 bool on_strokes(glm::vec2 point, std::span<const Stroke> strokes) {
-    constexpr float kHalfWidth = 0.2f;
+    constexpr float half_width = 0.2f;
     return std::any_of(strokes.begin(), strokes.end(),
-                       [&](const Stroke& stroke) { return stroke_distance(point, stroke) < kHalfWidth; });
+                       [&](const Stroke& stroke) { return stroke_distance(point, stroke) < half_width; });
 }
 
 std::span<const Stroke> letter(char axis) {
@@ -62,8 +62,8 @@ std::span<const Stroke> letter(char axis) {
 
 /// Sign to the left, letter to the right of the face's centre; `at` spans ±1 over the face.
 bool on_label(const Face& face, glm::vec2 at) {
-    constexpr float kSize = 0.2f;
-    const glm::vec2 scaled = at / kSize;
+    constexpr float size = 0.2f;
+    const glm::vec2 scaled = at / size;
     if (std::abs(scaled.x) > 2.4f || std::abs(scaled.y) > 1.3f) return false;
     const auto sign = face.positive ? std::span<const Stroke>(kPlus) : std::span<const Stroke>(kMinus);
     return on_strokes(scaled + glm::vec2(1.1f, 0.0f), sign) ||

@@ -1,8 +1,10 @@
 #include "renderer/core/file_io.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <memory>
 #include <random>
 #include <stdexcept>
 #include <system_error>
@@ -18,43 +20,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A C stream that closes itself: the one kind that can be flushed to the disk on every system.
-class Stream {
-public:
-    Stream(const fs::path& file, const char* mode) {
-#ifdef _WIN32
-        const std::wstring wide_mode(mode, mode + std::char_traits<char>::length(mode));
-        stream_ = _wfopen(file.c_str(), wide_mode.c_str());
-#else
-        stream_ = std::fopen(file.c_str(), mode);
-#endif
-    }
-    ~Stream() { close(); }
-    Stream(const Stream&) = delete;
-    Stream& operator=(const Stream&) = delete;
-    Stream(Stream&&) = delete;
-    Stream& operator=(Stream&&) = delete;
-
-    explicit operator bool() const { return stream_ != nullptr; }
-    std::FILE* get() const { return stream_; }
-    bool flush_to_disk() {
-        if (std::fflush(stream_) != 0) return false;
-#ifdef _WIN32
-        return _commit(_fileno(stream_)) == 0;
-#else
-        return fsync(fileno(stream_)) == 0;
-#endif
-    }
-    /// False where what was buffered could not be written.
-    bool close() {
-        std::FILE* stream = stream_;
-        stream_ = nullptr;
-        return stream == nullptr || std::fclose(stream) == 0;
-    }
-
-private:
-    std::FILE* stream_ = nullptr;
+/// A C stream, the one kind that can be flushed to the disk on every system, and its end.
+struct CloseStream {
+    void operator()(std::FILE* stream) const {
+        std::fclose(stream);
+    }  // NOLINT(cppcoreguidelines-owning-memory)
 };
+using Stream = std::unique_ptr<std::FILE, CloseStream>;
+
+Stream open_stream(const fs::path& file, const char* mode) {
+#ifdef _WIN32
+    const std::wstring wide_mode(mode, mode + std::char_traits<char>::length(mode));
+    return Stream(_wfopen(file.c_str(), wide_mode.c_str()));
+#else
+    return Stream(std::fopen(file.c_str(), mode));
+#endif
+}
+
+bool flush_to_disk(std::FILE* stream) {
+    if (std::fflush(stream) != 0) return false;
+#ifdef _WIN32
+    return _commit(_fileno(stream)) == 0;
+#else
+    return fsync(fileno(stream)) == 0;
+#endif
+}
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
@@ -91,10 +81,10 @@ fs::path temporary_name(const fs::path& file) {
 }
 
 void write_all(const fs::path& file, const fs::path& temporary, std::span<const std::byte> bytes) {
-    Stream stream(temporary, "wbx");
+    const Stream stream = open_stream(temporary, "wbx");
     if (!stream) fail(file, "cannot be written (" + reason(errno) + "); choose another folder");
     const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stream.get()) == bytes.size() &&
-                         stream.flush_to_disk() && stream.close();
+                         flush_to_disk(stream.get());
     if (!written)
         fail(file, "could not be written completely (" + reason(errno) +
                        "); free some space or choose another folder");
@@ -116,7 +106,7 @@ std::vector<std::byte> read_file(const fs::path& file, std::uint64_t max_bytes) 
     if (!fs::is_regular_file(status)) fail(file, "is not a regular file; copy its contents to one");
     const std::uint64_t size = fs::file_size(file, error);
     if (error) fail(file, "cannot be read (" + error.message() + ")");
-    Stream stream(file, "rb");
+    const Stream stream = open_stream(file, "rb");
     if (!stream) fail(file, "cannot be opened (" + reason(errno) + "); check its permissions");
     std::vector<std::byte> bytes(static_cast<std::size_t>(std::min(size, max_bytes)));
     bytes.resize(std::fread(bytes.data(), 1, bytes.size(), stream.get()));

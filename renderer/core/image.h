@@ -35,6 +35,16 @@ float texel(const Image& image, int x, int y, int channel);
 /// Sets it; unsigned types round to nearest and clamp. Precondition: inside the image.
 void set_texel(Image& image, int x, int y, int channel, float value);
 
+/// The picture as it is to be seen, from one stored with EXIF orientation 1…8 (other numbers mean 1).
+Image oriented(Image image, int exif_orientation);
+
+/// A black width × height picture with image's upper left corner at (x, y); what lies outside is cut off.
+/// Sizes ≥ 1.
+struct Placement {
+    int x = 0, y = 0, width = 1, height = 1;
+};
+Image placed(const Image& image, const Placement& placement);
+
 /// IEC 61966-2-1 transfer functions, elementwise, exact piecewise form; encode clamps below 0 to 0.
 float srgb_to_linear(float encoded);
 float linear_to_srgb(float linear);

@@ -35,11 +35,48 @@ bool looks_like_targa(Bytes bytes) {
 
 constexpr std::string_view kCutShort = "is cut short; copy or export it again";
 
-/// Walks the chunks: length, name, data, checksum; the last one is IEND.
+/// CRC-32 as in ISO 3309 and PNG, eight bytes at a time: table k holds the checksum of a byte with k zero
+/// bytes behind it.
+class Crc32 {
+public:
+    constexpr Crc32() {
+        for (std::uint32_t i = 0; i < 256; ++i) {
+            std::uint32_t crc = i;
+            for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (0xEDB88320u & (0u - (crc & 1u)));
+            tables_[0][i] = crc;
+        }
+        for (std::size_t k = 1; k < 8; ++k)
+            for (std::size_t i = 0; i < 256; ++i)
+                tables_[k][i] = tables_[k - 1][i] >> 8 ^ tables_[0][tables_[k - 1][i] & 0xFF];
+    }
+    std::uint32_t of(Bytes bytes) const {
+        std::uint32_t crc = ~0u;
+        for (; bytes.size() >= 8; bytes = bytes.subspan(8)) {
+            std::uint32_t next = 0;
+            for (std::size_t i = 0; i < 4; ++i)
+                next ^= tables_[7 - i][(crc >> 8 * i ^ byte_at(bytes, i)) & 0xFF] ^
+                        tables_[3 - i][byte_at(bytes, 4 + i)];
+            crc = next;
+        }
+        for (const std::byte byte : bytes)
+            crc = crc >> 8 ^ tables_[0][(crc ^ std::to_integer<std::uint32_t>(byte)) & 0xFF];
+        return ~crc;
+    }
+
+private:
+    std::array<std::array<std::uint32_t, 256>, 8> tables_{};
+};
+constexpr Crc32 kCrc32;
+
+/// Walks the chunks: length, name (with a capital where the picture cannot do without), data, checksum; the
+/// last one is IEND.
 std::string png_problem(Bytes bytes) {
     for (std::size_t at = 8; at + 12 <= bytes.size();) {
         const std::uint32_t length = big_endian_32(bytes, at);
         if (length > bytes.size() - at - 12) break;
+        if (kCrc32.of(bytes.subspan(at + 4, length + std::size_t{4})) !=
+            big_endian_32(bytes, at + 8 + length))
+            return "is damaged (a checksum is wrong); copy or export it again";
         if (std::memcmp(bytes.data() + at + 4, "IEND", 4) == 0) return {};
         at += 12 + std::size_t{length};
     }
@@ -68,6 +105,97 @@ std::string jpeg_problem(Bytes bytes) {
         at += 2 + (byte_at(bytes, at + 2) << 8 | byte_at(bytes, at + 3));
     }
     return std::string(kCutShort);
+}
+
+/// The first directory of a TIFF: enough to see whether all strips or tiles lie within the file.
+class TiffDirectory {
+public:
+    explicit TiffDirectory(Bytes bytes)
+        : bytes_(bytes),
+          big_endian_(byte_at(bytes, 0) == 'M'),
+          big_(number(2, 2) == 43),
+          word_(big_ ? 8 : 4) {}
+
+    bool data_is_complete() const {
+        constexpr std::uint64_t strip_offsets = 273, strip_sizes = 279, tile_offsets = 324, tile_sizes = 325;
+        const std::uint64_t start = number(big_ ? 8 : 4, word_);
+        const std::uint64_t entries = number(start, big_ ? 8 : 2);
+        const std::uint64_t first = start + (big_ ? 8 : 2);
+        const std::size_t entry_size = big_ ? 20 : 12;
+        if (truncated_ || entries > bytes_.size() / entry_size) return false;
+        Field offsets;
+        Field sizes;
+        for (std::uint64_t i = 0; i < entries; ++i) {
+            const std::uint64_t at = first + i * entry_size;
+            const std::uint64_t tag = number(at, 2);
+            if (tag == strip_offsets || tag == tile_offsets) offsets = field(at);
+            if (tag == strip_sizes || tag == tile_sizes) sizes = field(at);
+        }
+        const std::uint64_t count = std::min(offsets.count, sizes.count);
+        if (count > bytes_.size()) return false;
+        for (std::uint64_t i = 0; i < count && !truncated_; ++i)
+            if (!inside(element(offsets, i), element(sizes, i))) return false;
+        return !truncated_;
+    }
+
+private:
+    struct Field {
+        std::uint64_t at = 0, count = 0;
+        std::size_t size = 4;  ///< bytes of one element
+    };
+    bool inside(std::uint64_t at, std::uint64_t size) const {
+        return at <= bytes_.size() && size <= bytes_.size() - at;
+    }
+    std::uint64_t number(std::uint64_t at, std::size_t size) const {
+        if (!inside(at, size)) {
+            truncated_ = true;
+            return 0;
+        }
+        std::uint64_t value = 0;
+        for (std::size_t i = 0; i < size; ++i)
+            value = value << 8 | byte_at(bytes_, at + (big_endian_ ? i : size - 1 - i));
+        return value;
+    }
+    Field field(std::uint64_t entry) const {
+        constexpr std::uint64_t short_type = 3, long8_type = 16;
+        const std::uint64_t type = number(entry + 2, 2);
+        Field result{.count = number(entry + 4, word_),
+                     .size = std::size_t{type == short_type   ? 2u
+                                         : type == long8_type ? 8u
+                                                              : 4u}};
+        const std::uint64_t value = entry + 4 + word_;
+        // Short lists stand in the entry itself.
+        result.at = result.count <= word_ / result.size ? value : number(value, word_);
+        return result;
+    }
+    std::uint64_t element(const Field& list, std::uint64_t i) const {
+        return number(list.at + i * list.size, list.size);
+    }
+
+    Bytes bytes_;
+    mutable bool truncated_ = false;
+    bool big_endian_;
+    bool big_;          ///< BigTIFF
+    std::size_t word_;  ///< bytes of an offset
+};
+
+std::string tiff_problem(Bytes bytes) {
+    return TiffDirectory(bytes).data_is_complete() ? "" : std::string(kCutShort);
+}
+
+/// Pixels that one byte of file can stand for at most; 0 where there is no useful bound.
+std::uint64_t most_pixels_per_byte(ImageFormat format) {
+    switch (format) {
+        case ImageFormat::Png:  // deflate packs 1032 bytes, of eight one-bit pixels each
+        case ImageFormat::Jpeg:
+            return 8300;  // a block of 64 in a fraction of a bit
+        case ImageFormat::Targa:
+            return 64;  // a packet of 128 takes two bytes
+        case ImageFormat::Bmp:
+            return 130;  // a run of 255 takes two bytes
+        default:
+            return 0;
+    }
 }
 
 constexpr std::array<std::string_view, 8> kIds{"", "png", "jpeg", "tiff", "targa", "bmp", "openexr", "hdr"};
@@ -114,7 +242,22 @@ std::string_view image_format_id(ImageFormat format) { return kIds[static_cast<s
 std::string image_structure_problem(ImageFormat format, Bytes bytes) {
     if (format == ImageFormat::Png) return png_problem(bytes);
     if (format == ImageFormat::Jpeg) return jpeg_problem(bytes);
+    if (format == ImageFormat::Tiff) return tiff_problem(bytes);
     return {};
+}
+
+std::optional<PromisedSize> promised_size(ImageFormat format, Bytes bytes) {
+    if (format == ImageFormat::Png && bytes.size() >= 24)
+        return PromisedSize{.width = big_endian_32(bytes, 16), .height = big_endian_32(bytes, 20)};
+    if (format == ImageFormat::Targa && bytes.size() >= 18)
+        return PromisedSize{.width = byte_at(bytes, 12) | byte_at(bytes, 13) << 8,
+                            .height = byte_at(bytes, 14) | byte_at(bytes, 15) << 8};
+    return std::nullopt;
+}
+
+bool can_hold(ImageFormat format, std::uint64_t file_bytes, std::uint64_t pixels) {
+    const std::uint64_t ratio = most_pixels_per_byte(format);
+    return ratio == 0 || pixels / ratio <= file_bytes;
 }
 
 }  // namespace patina

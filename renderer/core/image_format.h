@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,8 +22,18 @@ ImageFormat image_format_of_extension(std::string_view extension);
 /// "png", "jpeg", "tiff", "targa", "bmp", "openexr", "hdr"; "" where unknown.
 std::string_view image_format_id(ImageFormat format);
 
+struct PromisedSize {
+    std::int64_t width = 0, height = 0;
+};
+/// From the headers of PNG and TGA, whose decoders would rather complain in their own words; nothing for the
+/// others.
+std::optional<PromisedSize> promised_size(ImageFormat format, std::span<const std::byte> bytes);
+
 /// What is wrong with the bytes as a whole, as far as the format's structure tells without decoding; empty
 /// where nothing.
 std::string image_structure_problem(ImageFormat format, std::span<const std::byte> bytes);
+
+/// Whether a file of that size can possibly hold so many pixels.
+bool can_hold(ImageFormat format, std::uint64_t file_bytes, std::uint64_t pixels);
 
 }  // namespace patina

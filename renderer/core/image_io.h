@@ -27,18 +27,27 @@ struct LoadedImage {
     std::vector<std::string> notes;  ///< what was tolerated, one sentence each
 };
 
+/// Text stored beside the pixels (PNG text chunks, EXR attributes), in order. Names of one's own, such as
+/// "patina:preset", come back as they are; some general ones come back renamed (PNG's Description as
+/// ImageDescription).
+using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
+
 /// Reads only the header.
 ImageInfo load_image_info(const std::filesystem::path& file);
 
-/// PNG, JPEG, TIFF, TGA, BMP, EXR, Radiance HDR; more than 4 channels keep the first 4 (noted); palette is
-/// expanded; alpha is left unassociated; camera orientation is honoured.
+/// PNG, JPEG, TIFF, TGA, BMP, EXR, Radiance HDR, told by content rather than extension (noted where they
+/// differ).
+///
+/// Of more than four channels R, G, B and A are kept, by name where they have names, else the first (noted);
+/// of several parts the first with colours; palettes are expanded; CMYK becomes RGB; alpha is left as stored,
+/// not multiplied in; camera orientation is honoured; an EXR comes in its display window.
 LoadedImage load_image(const std::filesystem::path& file);
 
-/// Text stored beside the pixels (PNG text chunks, EXR attributes), in order.
-using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
+/// Text and numbers stored in the header, as text.
+ImageMetadata load_image_metadata(const std::filesystem::path& file);
 
 /// Format from the extension: .png (U8, U16) or .exr (F32, 32-bit float, ZIP). Atomic: temporary file, then
-/// rename.
+/// rename. The same picture and metadata give the same bytes.
 void save_image(const std::filesystem::path& file, const Image& image, const ImageMetadata& metadata = {});
 
 }  // namespace patina

@@ -120,16 +120,16 @@ glm::vec3 PreethamSky::radiance(glm::vec3 direction) const {
 glm::vec3 PreethamSky::sun_radiance() const {
     // Appendix A.1: transmittances e^(−0.008735 λ^−4.08 m) of the air, e^(−β λ^−1.3 m) of aerosols, e^(−0.35
     // k_o m) of ozone, at the primaries' dominant wavelengths; m is the relative optical mass.
-    constexpr glm::vec3 kWavelengths{0.6115f, 0.5491f, 0.4644f};  // µm
-    constexpr glm::vec3 kOzone{0.120f, 0.085f, 0.010f};           // absorption per cm
+    constexpr glm::vec3 wavelengths{0.6115f, 0.5491f, 0.4644f};  // µm
+    constexpr glm::vec3 ozone{0.120f, 0.085f, 0.010f};           // absorption per cm
     // Above the air: 133 klx over the disc's 6.72e-5 sr, the colour of a black body at 5778 K.
-    constexpr glm::vec3 kAboveAir = 1.98e6f * glm::vec3{1.112f, 0.976f, 0.913f};
+    constexpr glm::vec3 above_air = 1.98e6f * glm::vec3{1.112f, 0.976f, 0.913f};
     const float theta = std::acos(std::clamp(sun_.y, 0.0f, 1.0f));
     const float mass = 1.0f / (std::cos(theta) + 0.15f * std::pow(93.885f - theta * 180.0f / kPi, -1.253f));
     const float beta = 0.04608f * turbidity_ - 0.04586f;
-    const glm::vec3 depth = 0.008735f * glm::pow(kWavelengths, glm::vec3(-4.08f)) +
-                            beta * glm::pow(kWavelengths, glm::vec3(-1.3f)) + 0.35f * kOzone;
-    return kAboveAir * glm::exp(-mass * depth);
+    const glm::vec3 depth = 0.008735f * glm::pow(wavelengths, glm::vec3(-4.08f)) +
+                            beta * glm::pow(wavelengths, glm::vec3(-1.3f)) + 0.35f * ozone;
+    return above_air * glm::exp(-mass * depth);
 }
 
 glm::vec3 xyy_to_rgb(glm::vec3 xyy) {
