@@ -12,6 +12,11 @@
 #include <functional>
 #include <limits>
 
+#ifdef __linux__
+#include <csignal>
+#include <sys/resource.h>
+#endif
+
 namespace patina {
 namespace {
 
@@ -141,10 +146,45 @@ TEST(ImageIo, saving_replaces_the_old_picture_and_leaves_no_temporary_file) {
 }
 
 #ifdef __linux__
-TEST(ImageIo, a_full_disk_is_an_error_and_the_old_file_stays) {
-    const fs::path full = "/dev/full";
-    if (!fs::exists(full)) GTEST_SKIP();
-    EXPECT_THROW(write_file("/dev/full/a.png", bytes_of("x")), std::runtime_error);
+/// While it lives, files end after a few bytes, as on a full disk.
+class TinyDisk {
+public:
+    TinyDisk() {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        rlimit tiny = before_;
+        tiny.rlim_cur = 100;
+        setrlimit(RLIMIT_FSIZE, &tiny);
+        std::signal(SIGXFSZ, SIG_IGN);  // NOLINT(cert-err33-c)
+    }
+    ~TinyDisk() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, SIG_DFL);  // NOLINT(cert-err33-c)
+    }
+    TinyDisk(const TinyDisk&) = delete;
+    TinyDisk& operator=(const TinyDisk&) = delete;
+    TinyDisk(TinyDisk&&) = delete;
+    TinyDisk& operator=(TinyDisk&&) = delete;
+
+private:
+    rlimit before_{};
+};
+
+TEST(ImageIo, a_full_disk_is_an_error_that_leaves_the_old_picture_and_nothing_else) {
+    const TempFolder folder;
+    const Image old = gradient(2, 2, 3, PixelType::U8);
+    save_image(folder / "a.png", old);
+    std::string message;
+    {
+        const TinyDisk disk;
+        try {
+            save_image(folder / "a.png", gradient(64, 64, 3, PixelType::U8));
+        } catch (const std::runtime_error& error) {
+            message = error.what();
+        }
+    }
+    EXPECT_TRUE(contains(message, "free some space")) << message;
+    expect_equal(load_image(folder / "a.png").image, old);
+    EXPECT_EQ(folder.files(), 1u);
 }
 #endif
 
