@@ -44,9 +44,9 @@ std::size_t utf8_length(std::string_view text) {
 
 /// At most that many bytes of it, never half a character.
 std::string shortened(std::string text) {
-    static constexpr std::size_t kReadable = 60;
-    if (text.size() <= kReadable) return text;
-    text.resize(kReadable);
+    static constexpr std::size_t readable = 60;
+    if (text.size() <= readable) return text;
+    text.resize(readable);
     while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.pop_back();
     if (!text.empty() && (static_cast<unsigned char>(text.back()) & 0x80) != 0) text.pop_back();
     return text + "…";
@@ -61,7 +61,7 @@ std::string plain_reason(std::string_view what) {
             what.remove_prefix(colon + 2);
     std::string reason(what);
     if (const auto last_read = reason.find("; last read: "); last_read != std::string::npos) {
-        const auto end = reason.find("'", reason.find("'", last_read) + 1);
+        const auto end = reason.find('\'', reason.find('\'', last_read) + 1);
         reason.erase(last_read, end == std::string::npos ? end : end + 1 - last_read);
     }
     if (reason.starts_with("number overflow")) reason = "the number is too large";
@@ -97,12 +97,12 @@ public:
     }
     bool parse_error(std::size_t position, const std::string& token,
                      const nlohmann::detail::exception& error) override {
-        static constexpr int kNumberOverflow = 406;
+        static constexpr int number_overflow = 406;
         const std::string_view what = error.what();
         // The position is one past what was read; an overflow is noticed at the number's end.
         std::size_t byte = std::min(position, text_.size());
         if (what.find("unexpected end of input") == std::string_view::npos)
-            byte -= std::min(byte, error.id == kNumberOverflow ? token.size() : 1);
+            byte -= std::min(byte, error.id == number_overflow ? token.size() : 1);
         refuse(name_, text_, byte, "not valid JSON: " + plain_reason(what));
     }
 
@@ -214,7 +214,7 @@ private:
         return key.is_string() ? key.get<std::string>() : std::string();
     }
     void skip_value() {
-        static constexpr std::string_view kAfterValue = ",]} \t\r\n";
+        static constexpr std::string_view after_value = ",]} \t\r\n";
         int depth = 0;
         do {
             const char c = peek();
@@ -224,7 +224,7 @@ private:
             }
             depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
             ++at_;
-            while (depth == 0 && at_ < text_.size() && kAfterValue.find(peek()) == std::string_view::npos)
+            while (depth == 0 && at_ < text_.size() && after_value.find(peek()) == std::string_view::npos)
                 ++at_;
         } while (depth > 0);
         skip_space();
@@ -263,11 +263,11 @@ std::size_t column_count(std::string_view text) {
 }
 
 void print(const Json& json, std::size_t indent, std::size_t used, std::string& out) {
-    static constexpr std::size_t kColumns = 100;
-    static constexpr std::size_t kStep = 2;
+    static constexpr std::size_t columns = 100;
+    static constexpr std::size_t step = 2;
     const std::string one_line = inline_text(json);
     const bool outermost = indent == 0 && used == 0;
-    if (!json.is_structured() || json.empty() || (!outermost && used + column_count(one_line) <= kColumns)) {
+    if (!json.is_structured() || json.empty() || (!outermost && used + column_count(one_line) <= columns)) {
         out += one_line;
         return;
     }
@@ -275,8 +275,8 @@ void print(const Json& json, std::size_t indent, std::size_t used, std::string& 
     for (auto item = json.begin(); item != json.end(); ++item) {
         out += item == json.begin() ? "\n" : ",\n";
         const std::string key = json.is_object() ? key_text(item.key()) : "";
-        out += std::string(indent + kStep, ' ') + key;
-        print(*item, indent + kStep, indent + kStep + column_count(key) + 1, out);
+        out += std::string(indent + step, ' ') + key;
+        print(*item, indent + step, indent + step + column_count(key) + 1, out);
     }
     out += "\n" + std::string(indent, ' ') + (json.is_array() ? "]" : "}");
 }

@@ -71,9 +71,9 @@ bool is_last_letter(const std::vector<NameToken>& tokens, std::size_t at) {
 /// The word that ends at a token: the longest that has an entry. Two words that could be a packed map are
 /// only remembered.
 bool find_word_at(Reading& reading, std::size_t last) {
-    static constexpr std::size_t kMostTokens = 4;
+    static constexpr std::size_t most_tokens = 4;
     const auto& tokens = reading.tokens;
-    for (std::size_t count = std::min(kMostTokens, last + 1); count > 0; --count) {
+    for (std::size_t count = std::min(most_tokens, last + 1); count > 0; --count) {
         const std::size_t first = last + 1 - count;
         if (count == 1 && tokens[last].noise) return false;
         const MapWord* word = find_map_word(joined(tokens, first, last));
@@ -177,11 +177,11 @@ void settle_packed(std::vector<Reading>& readings) {
 
 /// "Metal014.png" beside "Metal014_Color.png" shows the set; in a set without a colour map it is the colour.
 void settle_set_pictures(std::vector<Reading>& readings) {
-    static constexpr std::size_t kASet = 2;
+    static constexpr std::size_t a_set = 2;
     std::vector<Reading*> found;
     for (Reading& reading : readings) {
         if (is_picture(reading) && has_set_name(reading.whole) &&
-            others_in_set(readings, reading, reading.whole) >= kASet)
+            others_in_set(readings, reading, reading.whole) >= a_set)
             found.push_back(&reading);
     }
     for (Reading* reading : found) {
@@ -250,8 +250,8 @@ bool says_linear(const Reading& reading) {
 }
 
 std::string packed_reason(const Reading& reading, const MapUse& use) {
-    static constexpr std::array kNames{"red", "green", "blue", "alpha"};
-    const std::string channel = kNames[static_cast<std::size_t>(use.channel)];
+    static constexpr std::array names{"red", "green", "blue", "alpha"};
+    const std::string channel = names[static_cast<std::size_t>(use.channel)];
     return word_in_name(reading) + " packs several maps: " + channel + " is " +
            (use.invert ? "smoothness, so it is inverted to roughness"
                        : lower(std::string(slot_row(use.slot).label)));
@@ -360,6 +360,7 @@ ImportRow row_of(const Candidate& candidate) {
 }
 
 void add_rows_for_slot(const std::vector<Candidate>& candidates, MapSlot slot, ImportProposal& proposal) {
+    static constexpr std::size_t most_named = 2;
     std::vector<const Candidate*> rivals;
     for (const Candidate& candidate : candidates)
         if (candidate.use.slot == slot) rivals.push_back(&candidate);
@@ -369,14 +370,18 @@ void add_rows_for_slot(const std::vector<Candidate>& candidates, MapSlot slot, I
         [](const Candidate* a, const Candidate* b) { return a != b && !why_better(*a, *b).empty(); });
     std::rotate(rivals.begin(), winner, winner + 1);
     std::vector<ImportRow> rows;
+    rows.reserve(rivals.size());
     for (const Candidate* rival : rivals) rows.push_back(row_of(*rival));
     rows[0].slot = slot;
     for (std::size_t i = 1; i < rivals.size(); ++i) {
         const std::string_view better = why_better(*rivals[0], *rivals[i]);
         const std::string why(better.empty() ? "it was named first" : better);
-        rows[0].reason += "; preferred to " + file_name(*rivals[i]->reading) + ": " + why;
+        if (i <= most_named)
+            rows[0].reason += "; preferred to " + file_name(*rivals[i]->reading) + ": " + why;
         rows[i].reason += ", but " + file_name(*rivals[0]->reading) + " is taken: " + why;
     }
+    if (rivals.size() > most_named + 1)
+        rows[0].reason += "; and to " + std::to_string(rivals.size() - 1 - most_named) + " more";
     for (ImportRow& row : rows) {
         row.reason += ".";
         proposal.rows.push_back(std::move(row));

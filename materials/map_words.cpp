@@ -182,23 +182,23 @@ std::string lower(std::string_view text) {
 
 /// 0 if the text is not a number of at most five digits.
 int number(std::string_view text) {
-    static constexpr std::size_t kMostDigits = 5;
+    static constexpr std::size_t most_digits = 5;
     int value = 0;
-    if (text.empty() || text.size() > kMostDigits) return 0;
+    if (text.empty() || text.size() > most_digits) return 0;
     const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
     return failure == std::errc() && end == text.data() + text.size() ? value : 0;
 }
 
 /// "2k" and "2048" are 2048; 0 for everything else.
 int resolution_in(std::string_view word) {
-    static constexpr int kLargestInK = 32;
-    static constexpr int kSmallest = 256;
+    static constexpr int largest_in_k = 32;
+    static constexpr int smallest = 256;
     if (word.ends_with('k')) {
         const int thousands = number(word.substr(0, word.size() - 1));
-        return thousands <= kLargestInK ? thousands * 1024 : 0;
+        return thousands <= largest_in_k ? thousands * 1024 : 0;
     }
     const int pixels = number(word);
-    const bool power_of_two = pixels >= kSmallest && (pixels & (pixels - 1)) == 0;
+    const bool power_of_two = pixels >= smallest && (pixels & (pixels - 1)) == 0;
     return power_of_two ? pixels : 0;
 }
 
@@ -271,15 +271,15 @@ std::vector<NameToken> tokenize(std::string_view name) {
 }
 
 NameNoise noise_of(const std::vector<NameToken>& tokens) {
-    static constexpr int kFirstTile = 1001;
-    static constexpr int kLastTile = 1999;
+    static constexpr int first_tile = 1001;
+    static constexpr int last_tile = 1999;
     NameNoise noise;
     for (std::size_t i = 0; i < tokens.size(); ++i) {
         const int value = number(tokens[i].word);
         if (const int resolution = resolution_in(tokens[i].word))
             noise.resolution = std::max(noise.resolution, resolution);
         if (i > 0 && tokens[i - 1].word == "lod" && is_number(tokens[i].word)) noise.lod = value;
-        if (value >= kFirstTile && value <= kLastTile && i + 1 == tokens.size()) noise.udim_tile = value;
+        if (value >= first_tile && value <= last_tile && i + 1 == tokens.size()) noise.udim_tile = value;
     }
     return noise;
 }

@@ -54,11 +54,11 @@ std::string lower(std::string_view text) {
 
 /// One line, not too long, whatever the file holds.
 std::string printable(std::string_view text) {
-    static constexpr std::size_t kReadable = 80;
+    static constexpr std::size_t readable = 80;
     std::string result;
     for (const char c : text) {
         const bool starts_character = (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-        if (result.size() >= kReadable && starts_character) return result + "…";
+        if (result.size() >= readable && starts_character) return result + "…";
         result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     }
     return result;
@@ -148,14 +148,14 @@ private:
     void read_head() {
         if (const std::string* name = find_text("/name")) result_.material.name = *name;
         if (const std::string* source = find_text("/source")) result_.material.source = *source;
-        static constexpr std::string_view kBefore = "patina-material-";
+        static constexpr std::string_view before = "patina-material-";
         const std::string* schema = find_text("/$schema");
         if (!schema || *schema == kPresetSchema) return;
         known_.erase("/$schema");
         schema_ = *schema;
-        const std::size_t at = schema->find(kBefore);
+        const std::size_t at = schema->find(before);
         const long version =
-            at == std::string::npos ? 0 : std::strtol(schema->c_str() + at + kBefore.size(), nullptr, 10);
+            at == std::string::npos ? 0 : std::strtol(schema->c_str() + at + before.size(), nullptr, 10);
         if (version > kPresetVersion)
             note("/$schema", "says version " + std::to_string(version) + ", this program knows version " +
                                  std::to_string(kPresetVersion) +
@@ -374,7 +374,7 @@ bool is_web_address(std::string_view map) {
 fs::path resolve_map(const fs::path& preset_file, std::string_view map) {
     if (map.empty() || is_web_address(map)) return {};
     const fs::path folder = folder_of(preset_file);
-    const fs::path literal = (folder / utf8_to_path(map)).lexically_normal();
+    fs::path literal = (folder / utf8_to_path(map)).lexically_normal();
     std::error_code failure;
     if (map.find('\\') == std::string_view::npos || fs::exists(literal, failure)) return literal;
     std::string slashes(map);

@@ -46,8 +46,8 @@ std::string number_text(float value) {
 }
 
 std::string range_text(const MaterialParam& param) {
-    static constexpr std::array kCounts{"", "a number", "two numbers", "three numbers"};
-    std::string text = kCounts[components(param.kind)];
+    static constexpr std::array counts{"", "a number", "two numbers", "three numbers"};
+    std::string text = counts[components(param.kind)];
     text += param.kind == ParamKind::Scalar ? " from " : " (x,y) from ";
     if (param.kind == ParamKind::Color) text = "a colour (r,g,b) from ";
     return text + number_text(param.range.min) + " to " + number_text(param.range.max) +
@@ -58,10 +58,10 @@ std::string setting_keys(const MaterialSlot& slot) {
     Material scratch;
     const MapRef ref = slot.edit(scratch);
     std::string keys = std::string(slot.key) + ".map";
-    if (ref.color_space) keys += ", " + std::string(slot.key) + ".color_space";
-    if (ref.channel) keys += ", " + std::string(slot.key) + ".channel";
-    if (ref.invert) keys += ", " + std::string(slot.key) + ".invert";
-    if (ref.convention) keys += ", " + std::string(slot.key) + ".convention";
+    if (ref.color_space != nullptr) keys += ", " + std::string(slot.key) + ".color_space";
+    if (ref.channel != nullptr) keys += ", " + std::string(slot.key) + ".channel";
+    if (ref.invert != nullptr) keys += ", " + std::string(slot.key) + ".invert";
+    if (ref.convention != nullptr) keys += ", " + std::string(slot.key) + ".convention";
     return keys;
 }
 
@@ -123,7 +123,7 @@ void set_choice(T& target, const std::array<Choice<T>, n>& choices, std::string_
 
 /// True if the slot has such a setting.
 bool set_slot(const MapRef& ref, std::string_view setting, std::string_view key, std::string_view text) {
-    static constexpr std::array kYesNo{Choice<bool>{true, "true", "", ""},
+    static constexpr std::array yes_no{Choice<bool>{true, "true", "", ""},
                                        Choice<bool>{false, "false", "", ""}};
     if (setting == "map")
         *ref.map = text;
@@ -132,7 +132,7 @@ bool set_slot(const MapRef& ref, std::string_view setting, std::string_view key,
     else if (setting == "channel" && ref.channel)
         set_choice(*ref.channel, kChannels, key, text);
     else if (setting == "invert" && ref.invert)
-        set_choice(*ref.invert, kYesNo, key, text);
+        set_choice(*ref.invert, yes_no, key, text);
     else if (setting == "convention" && ref.convention)
         set_choice(*ref.convention, kNormalConventions, key, text);
     else

@@ -86,6 +86,8 @@ public:
     }
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
+    TemporaryFile(TemporaryFile&&) = delete;
+    TemporaryFile& operator=(TemporaryFile&&) = delete;
 
     void write_all(std::string_view text) {
         while (!text.empty()) {
@@ -117,10 +119,10 @@ private:
 
 /// Where a chain of symbolic links ends, whether or not something is there.
 fs::path end_of_links(fs::path path) {
-    static constexpr int kMostLinks = 40;
+    static constexpr int most_links = 40;
     std::error_code failure;
     for (int links = 0; fs::is_symlink(fs::symlink_status(path, failure)); ++links) {
-        if (links == kMostLinks) refuse_save(path, "its symbolic links go in a circle");
+        if (links == most_links) refuse_save(path, "its symbolic links go in a circle");
         const fs::path next = fs::read_symlink(path, failure);
         if (failure) refuse_save(path, failure.message());
         path = path.parent_path() / next;

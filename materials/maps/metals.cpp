@@ -36,11 +36,11 @@ float brushing(glm::vec2 uv, std::uint32_t seed) {
 }
 
 SurfacePoint worn_paint_at(glm::vec2 uv) {
-    static constexpr glm::vec3 kPaint{0.012f, 0.130f, 0.150f};
-    static constexpr glm::vec3 kFadedPaint{0.040f, 0.200f, 0.205f};
-    static constexpr glm::vec3 kPrimer{0.310f, 0.290f, 0.260f};
-    static constexpr glm::vec3 kRust{0.150f, 0.048f, 0.014f};
-    static constexpr float kCoat = 0.0022f;  // thickness of paint and primer together, in tiles
+    static constexpr glm::vec3 paint_color{0.012f, 0.130f, 0.150f};
+    static constexpr glm::vec3 faded_paint{0.040f, 0.200f, 0.205f};
+    static constexpr glm::vec3 primer_color{0.310f, 0.290f, 0.260f};
+    static constexpr glm::vec3 rust_color{0.150f, 0.048f, 0.014f};
+    static constexpr float coat_thickness = 0.0022f;  // thickness of paint and primer together, in tiles
     const float wear = fractal_noise(warped(uv, 4, 0.03f, 11), 4, 7, 12) +
                        0.35f * fractal_noise(uv, 24, 4, 13) + 0.75f * scratches(uv, 60, 0.0022f, 1.0f, 14);
     const float bare = smoothstep(0.43f, 0.46f, wear);
@@ -51,23 +51,23 @@ SurfacePoint worn_paint_at(glm::vec2 uv) {
     const float peel = gradient_noise(uv, glm::ivec2(90), 18);
 
     SurfacePoint point;
-    const glm::vec3 coat = mix(mix(kPaint, kFadedPaint, fade), kPaint * 0.45f, 0.7f * stain);
-    point.albedo =
-        mix(mix(coat, kPrimer, primer * (1.0f - 0.4f * stain)), mix(kIronF0 * 0.9f, kRust, rust), bare);
+    const glm::vec3 coat = mix(mix(paint_color, faded_paint, fade), paint_color * 0.45f, 0.7f * stain);
+    point.albedo = mix(mix(coat, primer_color, primer * (1.0f - 0.4f * stain)),
+                       mix(kIronF0 * 0.9f, rust_color, rust), bare);
     point.metallic = bare * (1.0f - rust);
     const float coat_roughness = mix(0.32f + 0.10f * fade + 0.15f * stain, 0.75f, primer);
     const float metal_roughness = mix(0.34f + 0.06f * brushing(uv, 19), 0.85f, rust);
     point.roughness = saturate(mix(coat_roughness, metal_roughness, bare));
-    point.height = kCoat * (1.0f - 0.5f * primer - 0.5f * bare) + 0.00008f * peel * (1.0f - bare) +
+    point.height = coat_thickness * (1.0f - 0.5f * primer - 0.5f * bare) + 0.00008f * peel * (1.0f - bare) +
                    0.0006f * rust * (0.5f + fractal_noise(uv, 60, 3, 20)) +
                    0.00004f * bare * brushing(uv, 21);
     return point;
 }
 
 SurfacePoint rusted_iron_at(glm::vec2 uv) {
-    static constexpr glm::vec3 kDark{0.055f, 0.019f, 0.009f};
-    static constexpr glm::vec3 kRust{0.181f, 0.057f, 0.017f};
-    static constexpr glm::vec3 kOrange{0.380f, 0.145f, 0.040f};
+    static constexpr glm::vec3 dark{0.055f, 0.019f, 0.009f};
+    static constexpr glm::vec3 rust_color{0.181f, 0.057f, 0.017f};
+    static constexpr glm::vec3 orange{0.380f, 0.145f, 0.040f};
     const glm::vec2 bent = warped(uv, 4, 0.09f, 31);
     const float spread = fractal_noise(bent, 3, 8, 32) + 0.25f * fractal_noise(uv, 40, 4, 33);
     const float rust = smoothstep(-0.06f, 0.10f, spread);
@@ -77,7 +77,7 @@ SurfacePoint rusted_iron_at(glm::vec2 uv) {
 
     SurfacePoint point;
     const glm::vec3 oxide =
-        tone < 0.5f ? mix(kDark, kRust, 2.0f * tone) : mix(kRust, kOrange, 2.0f * tone - 1.0f);
+        tone < 0.5f ? mix(dark, rust_color, 2.0f * tone) : mix(rust_color, orange, 2.0f * tone - 1.0f);
     const float tarnish = saturate(0.65f + 0.5f * fractal_noise(uv, 8, 5, 37));
     point.albedo = mix(kIronF0 * tarnish, oxide * (1.0f - 0.5f * pits), rust);
     point.metallic = 1.0f - rust;
@@ -91,7 +91,7 @@ SurfacePoint rusted_iron_at(glm::vec2 uv) {
 /// Dents of a round hammer: each point lies in the lowest of the bowls around it, with the ridges between
 /// them rounded.
 float hammer_marks(glm::vec2 uv, int cells, std::uint32_t seed) {
-    static constexpr float kRounding = 0.16f;
+    static constexpr float rounding = 0.16f;
     const glm::vec2 p = uv * static_cast<float>(cells);
     const glm::ivec2 home{static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y))};
     float lowest = 4.0f;
@@ -103,15 +103,15 @@ float hammer_marks(glm::vec2 uv, int cells, std::uint32_t seed) {
                 static_cast<float>(home.x + dx) + 0.5f + 0.42f * random_signed(x, y, seed) - p.x,
                 static_cast<float>(home.y + dy) + 0.5f + 0.42f * random_signed(x, y, seed + 1u) - p.y};
             const float bowl = d.x * d.x + d.y * d.y + 0.22f * random01(x, y, seed + 2u);
-            const float t = saturate(0.5f + 0.5f * (lowest - bowl) / kRounding);
-            lowest = mix(lowest, bowl, t) - kRounding * t * (1.0f - t);
+            const float t = saturate(0.5f + 0.5f * (lowest - bowl) / rounding);
+            lowest = mix(lowest, bowl, t) - rounding * t * (1.0f - t);
         }
     return lowest;
 }
 
 SurfacePoint hammered_copper_at(glm::vec2 uv) {
-    static constexpr glm::vec3 kCopperF0{0.955f, 0.638f, 0.538f};
-    static constexpr glm::vec3 kOxide{0.300f, 0.110f, 0.060f};
+    static constexpr glm::vec3 copper_f0{0.955f, 0.638f, 0.538f};
+    static constexpr glm::vec3 oxide_color{0.300f, 0.110f, 0.060f};
     const float marks = hammer_marks(uv, 12, 41);
     const float cloud = fractal_noise(warped(uv, 4, 0.06f, 45), 3, 7, 42);
     // The ridges are rubbed bright, the hollows keep their skin.
@@ -120,7 +120,7 @@ SurfacePoint hammered_copper_at(glm::vec2 uv) {
         saturate(0.06f + 0.25f * hollow * (0.7f + cloud) + 0.30f * smoothstep(-0.1f, 0.7f, cloud));
 
     SurfacePoint point;
-    point.albedo = mix(kCopperF0, kOxide, oxide);
+    point.albedo = mix(copper_f0, oxide_color, oxide);
     point.metallic = 1.0f;
     point.roughness = saturate(0.14f + 0.45f * oxide + 0.03f * fractal_noise(uv, 50, 3, 43));
     point.height = 0.0115f * marks + 0.00012f * fractal_noise(uv, 40, 3, 44);

@@ -15,12 +15,12 @@ struct Thread {
 };
 /// A thread goes over two and under one; the next one is shifted, which makes the diagonal.
 Thread thread_at(float x, float y, bool warp) {
-    static constexpr int kRepeat = 3;
+    static constexpr int repeat = 3;
     Thread thread;
     thread.index = static_cast<int>(std::floor(x));
     thread.across = 2.0f * (x - std::floor(x)) - 1.0f;
     const auto over = [&](int crossing) {
-        const int step = wrap(warp ? thread.index + crossing : crossing + thread.index, kRepeat);
+        const int step = wrap(warp ? thread.index + crossing : crossing + thread.index, repeat);
         return (step != 0) == warp ? 1.0f : 0.0f;
     };
     const float along = y - 0.5f;
@@ -33,29 +33,29 @@ Thread thread_at(float x, float y, bool warp) {
 }
 
 SurfacePoint cloth_at(glm::vec2 uv) {
-    static constexpr int kThreads = 48;  // a multiple of the twill's repeat
-    static constexpr glm::vec3 kIndigo{0.022f, 0.040f, 0.110f};
-    static constexpr glm::vec3 kEcru{0.520f, 0.480f, 0.400f};
+    static constexpr int threads = 48;  // a multiple of the twill's repeat
+    static constexpr glm::vec3 indigo{0.022f, 0.040f, 0.110f};
+    static constexpr glm::vec3 ecru{0.520f, 0.480f, 0.400f};
     const glm::vec2 bent{uv.x + 0.0012f * fractal_noise(uv, 20, 3, 91),
                          uv.y + 0.0012f * fractal_noise(uv, 20, 3, 92)};
-    const float x = bent.x * static_cast<float>(kThreads);
-    const float y = bent.y * static_cast<float>(kThreads);
+    const float x = bent.x * static_cast<float>(threads);
+    const float y = bent.y * static_cast<float>(threads);
     const Thread warp = thread_at(x, y, true);
     const Thread weft = thread_at(y, x, false);
     const bool warp_on_top = warp.height >= weft.height;
     const Thread& top = warp_on_top ? warp : weft;
-    const int index = wrap(top.index, kThreads);
+    const int index = wrap(top.index, threads);
     const float own = random01(index, warp_on_top ? 0 : 1, 93);
     // Spun fibres wind round the thread: fine lines at a slant.
     const float along = warp_on_top ? y : x;
     const float twist = triangle(1.6f * along + 0.9f * top.across + own);
     const float fuzz = gradient_noise(uv, warp_on_top ? glm::ivec2(320, 120) : glm::ivec2(120, 320), 94);
     const float slub =
-        fractal_noise(uv, warp_on_top ? glm::ivec2(kThreads, 5) : glm::ivec2(5, kThreads), 3, 95);
+        fractal_noise(uv, warp_on_top ? glm::ivec2(threads, 5) : glm::ivec2(5, threads), 3, 95);
 
     SurfacePoint point;
     const glm::vec3 dyed =
-        warp_on_top ? mix(kIndigo, kEcru, saturate(0.05f + 0.10f * slub + 0.05f * fuzz)) : kEcru;
+        warp_on_top ? mix(indigo, ecru, saturate(0.05f + 0.10f * slub + 0.05f * fuzz)) : ecru;
     const float deep = smoothstep(0.25f, 0.85f, top.height);
     point.albedo = dyed * ((0.75f + 0.35f * own + 0.15f * twist + 0.15f * fuzz) * mix(0.45f, 1.0f, deep));
     point.roughness = saturate(0.80f + 0.08f * fuzz - 0.08f * twist + 0.08f * (1.0f - deep));
@@ -64,10 +64,10 @@ SurfacePoint cloth_at(glm::vec2 uv) {
 }
 
 SurfacePoint oak_at(glm::vec2 uv) {
-    static constexpr int kRows = 5;
-    static constexpr glm::vec3 kLight{0.430f, 0.225f, 0.095f};
-    static constexpr glm::vec3 kDark{0.150f, 0.058f, 0.020f};
-    const float v = uv.y * static_cast<float>(kRows);
+    static constexpr int rows = 5;
+    static constexpr glm::vec3 light{0.430f, 0.225f, 0.095f};
+    static constexpr glm::vec3 dark{0.150f, 0.058f, 0.020f};
+    const float v = uv.y * static_cast<float>(rows);
     const int row = static_cast<int>(v);
     // Each row is two planks long and starts elsewhere.
     const float u = 2.0f * uv.x + 2.0f * random01(row, 0, 101);
@@ -75,7 +75,7 @@ SurfacePoint oak_at(glm::vec2 uv) {
     const auto own = [&](std::uint32_t seed) { return random01(row, plank, seed); };
     const float from_side = 0.5f - std::abs(v - static_cast<float>(row) - 0.5f);
     const float from_end = 0.5f - std::abs(u - std::floor(u) - 0.5f);
-    const float gap = std::min(from_side / static_cast<float>(kRows), 0.5f * from_end);  // in tiles
+    const float gap = std::min(from_side / static_cast<float>(rows), 0.5f * from_end);  // in tiles
     const float board = smoothstep(0.0006f, 0.0026f, gap);
 
     const glm::vec2 shifted{uv.x + own(102), uv.y + own(103)};
@@ -89,7 +89,7 @@ SurfacePoint oak_at(glm::vec2 uv) {
 
     SurfacePoint point;
     const float tone = saturate(0.12f + 0.42f * late_wood + 0.20f * fine + 0.55f * (own(109) - 0.35f));
-    point.albedo = mix(kLight, kDark, tone) * (1.0f - 0.45f * pores) * (0.82f + 0.32f * own(110)) *
+    point.albedo = mix(light, dark, tone) * (1.0f - 0.45f * pores) * (0.82f + 0.32f * own(110)) *
                    mix(0.15f, 1.0f, board);
     point.roughness = saturate(mix(0.85f, 0.30f + 0.10f * pores + 0.05f * fine + 0.05f * own(111), board));
     const float bevel = smoothstep(0.0f, 0.005f, gap);

@@ -13,7 +13,7 @@ constexpr float kMax8 = 255.0f;
 constexpr float kMax16 = 65535.0f;
 
 std::uint16_t quantized(float value, float maximum) {
-    return static_cast<std::uint16_t>(saturate(value) * maximum + 0.5f);
+    return static_cast<std::uint16_t>(std::lround(saturate(value) * maximum));
 }
 
 /// IEC 61966-2-1 by its 255 steps: the code is how many of the steps' linear values lie below.
@@ -116,9 +116,9 @@ MapPicture normal_map(std::string file, const Surface& surface, GreenPoints gree
 // cosine-weighted sky cos²e = 1/(1 + tan²e) stays open. Averaged over 16 slices, horizons looked for up to an
 // eighth of the tile.
 std::vector<float> ambient_occlusion(const Surface& surface) {
-    static constexpr std::array<glm::ivec2, 8> kDirections{
+    static constexpr std::array<glm::ivec2, 8> directions{
         {{1, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 1}, {-1, 2}, {-1, 1}, {-2, 1}}};
-    static constexpr float kReach = 0.125f;
+    static constexpr float reach = 0.125f;
     const auto size = static_cast<float>(surface.size);
     const int mask = surface.size - 1;
     std::vector<float> heights;
@@ -133,7 +133,7 @@ std::vector<float> ambient_occlusion(const Surface& surface) {
         const float unit = std::sqrt(static_cast<float>(dx * dx + dy * dy));
         const float here = height(x, y);
         float steepest = 0.0f;
-        for (int step = 1; static_cast<float>(step) * unit < kReach * size; step += 1 + step / 3) {
+        for (int step = 1; static_cast<float>(step) * unit < reach * size; step += 1 + step / 3) {
             const float rise = height(x + dx * step, y + dy * step) - here;
             steepest = std::max(steepest, rise / (unit * static_cast<float>(step)));
         }
@@ -144,9 +144,9 @@ std::vector<float> ambient_occlusion(const Surface& surface) {
     for (int y = 0; y < surface.size; ++y)
         for (int x = 0; x < surface.size; ++x) {
             float sum = 0.0f;
-            for (const glm::ivec2 direction : kDirections)
+            for (const glm::ivec2 direction : directions)
                 sum += open_towards(x, y, direction) + open_towards(x, y, -direction);
-            open.push_back(sum / static_cast<float>(2 * kDirections.size()));
+            open.push_back(sum / static_cast<float>(2 * directions.size()));
         }
     return open;
 }

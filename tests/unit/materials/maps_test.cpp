@@ -80,7 +80,7 @@ TEST(GeneratedMaps, are_the_same_bytes_on_every_machine) {
 
 TEST(GeneratedMaps, repeat_without_a_seam) {
     for (const MapRecipe& recipe : map_recipes())
-        for (const MapPicture& picture : recipe.make(256))
+        for (const MapPicture& picture : recipe.make(128))
             for (const bool columns : {true, false}) {
                 double largest = 0.0;
                 for (int i = 0; i + 1 < picture.size; ++i)
