@@ -102,10 +102,10 @@ Profile ball_profile() {
 
     Profile profile;
     append_arc(profile, ball, -kPi / 2.0, angle_of(below.center), 48);
-    append_arc(profile, below, angle_of(below.center), angle_of(groove.center - below.center), 8);
+    append_arc(profile, below, angle_of(below.center), angle_of(groove.center - below.center), 12);
     append_arc(profile, groove, angle_of(below.center - groove.center),
                angle_of(above.center - groove.center), 16);
-    append_arc(profile, above, angle_of(groove.center - above.center), angle_of(above.center), 8);
+    append_arc(profile, above, angle_of(groove.center - above.center), angle_of(above.center), 12);
     append_arc(profile, ball, angle_of(above.center), angle_of(lip.center), 30);
     append_arc(profile, lip, angle_of(lip.center), angle_of(bowl.center - lip.center), 12);
     append_arc(profile, bowl, angle_of(lip.center - bowl.center), -kPi / 2.0, 32);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace patina {
 namespace {
@@ -331,6 +332,80 @@ TEST(LoadMesh, believes_contents_more_than_names) {
     const Mesh mesh = loaded("really.obj", kTextPly);
     EXPECT_EQ(mesh.indices.size(), 6u);
     EXPECT_TRUE(says(mesh.notes, "read as .ply"));
+}
+
+/// One byte changed, some lost, some doubled, or the rest cut off.
+std::string damaged(std::string bytes, std::mt19937& random) {
+    constexpr std::string_view kLikely = "0123456789-./ \n\rnaife#\\";
+    for (auto blows = 1 + random() % 3; blows > 0 && !bytes.empty(); --blows) {
+        const std::size_t at = random() % bytes.size();
+        switch (random() % 6) {
+            case 0:
+                bytes[at] = char(random());
+                break;
+            case 1:
+                bytes[at] = kLikely[random() % kLikely.size()];
+                break;
+            case 2:
+                bytes.erase(at, 1 + random() % 8);
+                break;
+            case 3:
+                bytes.insert(at, bytes.substr(random() % bytes.size(), random() % 40));
+                break;
+            case 4:
+                bytes.insert(at, 1, kLikely[random() % kLikely.size()]);
+                break;
+            default:
+                bytes.resize(at);
+                break;
+        }
+    }
+    return bytes;
+}
+void expect_sound(const Mesh& mesh) {
+    ASSERT_FALSE(mesh.indices.empty());
+    for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, mesh.vertices.size());
+    for (const Vertex& v : mesh.vertices) {
+        ASSERT_LE(glm::length(v.position), 1.0f + 1e-5f);
+        ASSERT_NEAR(glm::length(v.normal), 1.0f, 1e-4f);
+        ASSERT_TRUE(std::isfinite(v.uv.x) && std::isfinite(v.uv.y));
+        ASSERT_NEAR(glm::length(glm::vec3(v.tangent)), 1.0f, 1e-4f);
+    }
+}
+
+TEST(LoadMesh, either_reads_or_refuses_any_damaged_file) {
+    const std::vector<std::pair<std::string, std::string>> whole{
+        {"a.ply", std::string(kTextPly)},
+        {"b.ply", binary_ply(true, "uchar", "int", false)},
+        {"c.ply", binary_ply(false, "int", "uint", true)},
+        {"d.stl", binary_stl()},
+        {"e.stl", text_stl()},
+        {"f.off",
+         "STNOFF\n# x\n4 2 0\n0 0 0 0 0 1 0 0\n1 0 0 0 0 1 1 0\n1 1 0 0 0 1 1 1\n0 1 0 0 0 1 0 1\n3 0 1 2 "
+         "9\n3 0 2 3\n"},
+        {"g.obj",
+         "mtllib a\nv 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 1 1 0\nv 1 3 0\nv 3 3 1\nv 3 1 0\nvt 0 0\nvt 1 "
+         "1\nvn 0 0 1\n"
+         "f 1/1/1 2/2 3//1 4 1 5 6 7 8 5\nf -1/-1 \\\n-2/-2 -3/-1\n"}};
+    const MeshFolder folder;
+    std::mt19937 random(11);
+    int read = 0;
+    int refused = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const auto& [name, bytes] = whole[std::size_t(i) % whole.size()];
+        const auto file = folder.write(name, damaged(bytes, random));
+        try {
+            Mesh mesh = load_mesh(file);
+            make_tangents(mesh);
+            expect_sound(mesh);
+            ++read;
+        } catch (const std::runtime_error& error) {
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+            ++refused;
+        }
+    }
+    EXPECT_GT(read, 200);
+    EXPECT_GT(refused, 200);
 }
 
 }  // namespace
