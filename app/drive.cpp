@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <sstream>
 #include <stdexcept>
@@ -30,7 +31,7 @@ constexpr std::array kVerbs{
     Verb{"drag", 3, 3},  Verb{"move", 2, 2},         Verb{"wheel", 1, 1},       Verb{"type", 1, 1},
     Verb{"key", 1, 1},   Verb{"drop", 1, 1000},      Verb{"resize", 2, 2},      Verb{"close", 0, 0},
     Verb{"wait", 1, 4},  Verb{"mark", 0, 0},         Verb{"expect", 1, 3},      Verb{"screenshot", 1, 1},
-    Verb{"quit", 0, 0},
+    Verb{"quit", 0, 0},  Verb{"items", 0, 1},
 };
 
 /// Blanks separate; double quotes keep them; a '#' outside quotes ends the line. nullopt: a quote is left
@@ -272,6 +273,11 @@ void Drive::begin(const DriveCommand& command, Window& window, const DriveView& 
     if (verb == "screenshot") {
         screenshot_ = utf8_to_path(words[1]);
         return act([](Window& to) { to.call_for_frame(); });
+    }
+    if (verb == "items") {
+        for (const auto& [name, item] : view.items.items)
+            if (words.size() < 2 || name.rfind(words[1], 0) == 0) std::printf("%s\n", name.c_str());
+        return;
     }
     if (verb == "quit") {
         finished_ = true;

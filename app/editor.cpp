@@ -60,8 +60,7 @@ private:
     void remember_window();
 
     const EditArgs& args_;
-    Settings settings_;
-    std::vector<std::string> settings_notes_;
+    ParsedSettings remembered_;
     Window window_;
     Renderer renderer_;
     Jobs jobs_;
@@ -101,19 +100,15 @@ Settings with_arguments(Settings settings, const EditArgs& args) {
 
 Loop::Loop(const EditArgs& args, const Registry& registry)
     : args_(args),
-      settings_([this] {
-          ParsedSettings loaded = load_settings(state_folder());
-          settings_notes_ = std::move(loaded.notes);
-          return std::move(loaded.settings);
-      }()),
-      window_(window_options(args, settings_)),
+      remembered_(load_settings(state_folder())),
+      window_(window_options(args, remembered_.settings)),
       jobs_(worker_count(), Window::wake),
-      editor_(registry, renderer_, jobs_, with_arguments(settings_, args)) {
+      editor_(registry, renderer_, jobs_, with_arguments(remembered_.settings, args)) {
     if (!args.drive_script.empty())
         drive_.emplace(load_drive(path_from_utf8(args.drive_script)), args.drive_script);
     editor_.status.renderer = window_.description();
     editor_.status.version = PATINA_VERSION;
-    for (const std::string& note : settings_notes_) log_line(editor_, ui::Severity::Warning, note);
+    for (const std::string& note : remembered_.notes) log_line(editor_, ui::Severity::Warning, note);
 }
 
 /// False if the preset that was named cannot be had; the editor then shows why.
@@ -302,7 +297,7 @@ void Loop::remember_window() {
     settings.drawer_height = editor_.ui.drawer_height;
     settings.show_library = editor_.ui.show_library;
     settings.show_inspector = editor_.ui.show_inspector;
-    if (settings == settings_) return;
+    if (settings == remembered_.settings) return;
     save_settings(state_folder(), settings);
 }
 

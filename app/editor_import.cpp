@@ -137,7 +137,7 @@ void take_dropped(Editor& editor, const ui::request::Dropped& dropped) {
             folders = true;
             continue;
         }
-        sort_file(editor.registry, name, dropped.slot.has_value(), sorted);
+        sort_file(editor.registry, name, false, sorted);
     }
     if (dropped.slot && sorted.maps.size() == 1 && dropped.files.size() == 1)
         return assign_map(editor, *dropped.slot, sorted.maps[0]);

@@ -24,7 +24,12 @@ bool History::record(const Document& now, bool item_held) {
     return true;
 }
 
-void History::amend(const Document& now) { steps_[current_] = now; }
+void History::amend(const Document& now) {
+    steps_[current_] = now;
+    if (current_ == 0 || steps_[current_ - 1] != now) return;
+    steps_.erase(steps_.begin() + std::ptrdiff_t(current_));
+    --current_;
+}
 
 std::optional<Document> History::undo(const Document& now) {
     record(now, false);

@@ -21,8 +21,8 @@ public:
     /// To be called once a frame. A changed document becomes a step unless something is held (then once it is
     /// let go). A step drops what could have been redone. True if a step was added.
     bool record(const Document& now, bool item_held);
-    /// A change that is not a step of its own: the newest step becomes it (a path that moved, a repaired
-    /// value).
+    /// A change that is not a step of its own: the current step becomes it, and goes if it then changes
+    /// nothing.
     void amend(const Document& now);
 
     /// The document to go back (or forward) to. An unfinished change is made a step first.
