@@ -45,7 +45,18 @@ bool enter_pressed() {
     return ImGui::IsKeyPressed(KeyEnter, false) || ImGui::IsKeyPressed(KeyPadEnter, false);
 }
 
-bool escape_pressed() { return ImGui::IsKeyPressed(KeyEscape, false); }
+bool escape_pressed(const PanelContext& context) {
+    return !context.escape_taken && !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(KeyEscape, false);
+}
+
+void close_list_on_escape(PanelContext& context) {
+    const ImVector<ImGuiPopupData>& open = ImGui::GetCurrentContext()->OpenPopupStack;
+    if (!ImGui::IsKeyPressed(KeyEscape, false) || ImGui::GetIO().WantTextInput || open.empty()) return;
+    const ImGuiWindow* top = open.back().Window;
+    if (!top || (top->Flags & ImGuiWindowFlags_Modal)) return;
+    ImGui::ClosePopupsExceptModals();
+    context.escape_taken = true;
+}
 
 void align_right(float width) {
     const float room = ImGui::GetContentRegionAvail().x;
@@ -67,7 +78,7 @@ void draw_unsaved_question(PanelContext& context) {
         choice = Choice::Discard;
     ImGui::SameLine();
     if (button(context, "unsaved.cancel", "Cancel", "Go back to the material (Esc).", {.width = width}) ||
-        escape_pressed())
+        escape_pressed(context))
         choice = Choice::Cancel;
     ImGui::SameLine();
     if (button(context, "unsaved.save", "Save", "Save first, then go on (Enter).",
@@ -98,7 +109,7 @@ void draw_recovery_question(PanelContext& context) {
     ImGui::SameLine();
     if (button(context, "recovery.later", "Not now", "Start afresh; it is offered again next time (Esc).",
                {.width = width}) ||
-        escape_pressed())
+        escape_pressed(context))
         answer = Recovery::Later;
     ImGui::SameLine();
     if (button(context, "recovery.recover", "Recover", "Continue with the kept work (Enter).",

@@ -13,7 +13,10 @@ void end_question();
 
 /// Was Enter (but not to end typing) or Escape pressed?
 bool enter_pressed();
-bool escape_pressed();
+bool escape_pressed(const PanelContext& context);
+
+/// Escape closes an open list, menu or colour picker before anything else hears of it.
+void close_list_on_escape(PanelContext& context);
 
 /// Moves the cursor so that width display units end at the right edge.
 void align_right(float width);

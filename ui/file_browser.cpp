@@ -1,4 +1,5 @@
 // Choosing a file or folder, in the place of the viewport. Lists what the app has read; opens no file itself.
+#include "ui/dialogs.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/shortcuts.h"
@@ -254,21 +255,20 @@ void draw_answers(PanelContext& context) {
     FileBrowser& browser = context.browser;
     const PurposeRow& purpose = purpose_row(browser.purpose);
     if (browser.purpose == BrowserPurpose::ExportRender) draw_export_size(context);
-    const float width = px(96);
-    const float buttons = 2.0f * (width + ImGui::GetStyle().ItemSpacing.x);
+    const float gap = ImGui::GetStyle().ItemSpacing.x, full = ImGui::GetContentRegionAvail().x;
+    const float width = std::clamp((full - px(130) - 2.0f * gap) / 2.0f, px(72), px(96));
+    const float buttons = 2.0f * (width + gap);
     bool replaces = false;
     if (saves(browser.purpose)) {
         text_field(context, "browser.file_name", browser.file_name, "The name of the file.",
-                   {.hint = "File name", .width = ImGui::GetContentRegionAvail().x - buttons});
+                   {.hint = "File name", .width = full - buttons});
         replaces = exists(browser, target_of(browser));
         ImGui::SameLine();
     } else {
         checkbox(context, "browser.show_all", "Show all files", "Also files of other types.",
                  browser.show_all);
         ImGui::SameLine();
-        const float room = ImGui::GetContentRegionAvail().x;
-        ImGui::SetCursorPosX(ImGui::GetCursorPosX() +
-                             std::max(0.0f, room - buttons + ImGui::GetStyle().ItemSpacing.x));
+        align_right(2.0f * width + gap);
     }
     if (button(context, "browser.cancel", "Cancel", "Go back to the picture (Esc).", {.width = width}))
         browser.open = false;

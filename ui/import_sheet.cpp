@@ -6,6 +6,7 @@
 #include "ui/widgets.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -103,7 +104,13 @@ void draw_table(PanelContext& context, ImportSheet& sheet) {
     ImGui::EndTable();
 }
 
-void draw_answers(PanelContext& context, const ImportSheet& sheet) {
+/// Is a list of the sheet open? Then Enter is meant for it.
+bool is_list_open() {
+    const ImGuiContext& imgui = *ImGui::GetCurrentContext();
+    return imgui.OpenPopupStack.Size > imgui.BeginPopupStack.Size;
+}
+
+void draw_answers(PanelContext& context, const ImportSheet& sheet, bool list_open) {
     const float width = px(120);
     const auto used = std::count_if(sheet.rows.begin(), sheet.rows.end(),
                                     [](const ImportRow& row) { return row.slot.has_value(); });
@@ -113,13 +120,10 @@ void draw_answers(PanelContext& context, const ImportSheet& sheet) {
     const bool apply =
         button(context, "import.apply", "Use these maps", "Put the files into their slots (Enter).",
                {.emphasis = Emphasis::Primary, .width = width, .enabled = used > 0});
-    const bool combo_open =
-        ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel) &&
-        !ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
-    if (apply || (used > 0 && !combo_open && enter_pressed())) {
+    if (apply || (used > 0 && !list_open && enter_pressed())) {
         context.requests.push_back(request::ApplyImport{});
         ImGui::CloseCurrentPopup();
-    } else if (cancel || (!combo_open && escape_pressed())) {
+    } else if (cancel || escape_pressed(context)) {
         context.requests.push_back(request::CancelImport{});
         ImGui::CloseCurrentPopup();
     }
@@ -135,11 +139,12 @@ void draw_import_sheet(PanelContext& context) {
     text_wrapped("Each file was matched to a slot by its name. Change what is wrong; it applies as one step.",
                  color::kMuted);
     ImGui::Dummy({0.0f, px(2)});
+    const bool list_open = is_list_open();
     draw_table(context, sheet);
     for (const std::string& note : sheet.notes) text_wrapped(note, color::kMuted, Face::Small);
     checkbox(context, "import.rename", "Name the material after the set", "Otherwise it keeps its name.",
              sheet.rename_material);
-    draw_answers(context, sheet);
+    draw_answers(context, sheet, list_open);
     end_question();
 }
 

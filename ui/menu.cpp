@@ -51,7 +51,9 @@ bool starts_group(Action action) {
 }
 
 void draw_recent(PanelContext& context) {
-    if (!ImGui::BeginMenu("Open recent", !context.catalog.recent.empty())) return;
+    const bool open = ImGui::BeginMenu("Open recent", !context.catalog.recent.empty());
+    record(context, "menu.file.open_recent");
+    if (!open) return;
     for (const std::string& file : context.catalog.recent) {
         ImGui::PushID(file.c_str());
         if (ImGui::MenuItem(std::string(file_name_of(file)).c_str()))
@@ -66,7 +68,9 @@ void draw_recent(PanelContext& context) {
 }
 
 void draw_debug_views(PanelContext& context) {
-    if (!ImGui::BeginMenu("Show")) return;
+    const bool open = ImGui::BeginMenu("Show");
+    record(context, "menu.view.show");
+    if (!open) return;
     for (std::size_t i = 0; i < kDebugViews.size(); ++i) {
         const auto& row = kDebugViews[i];
         const std::string key = i < 10 ? std::to_string((i + 1) % 10) : "";

@@ -201,7 +201,7 @@ struct UiState {
     float inspector_width = 348.0f;
     float drawer_height = 190.0f;
     std::string search_presets, search_environments, search_meshes;
-    bool show_shortcuts = false;  ///< the `?` sheet
+    bool show_shortcuts = false;  ///< open the `?` sheet in the next frame
     bool show_about = false;
     bool log_only_problems = false;
     std::uint64_t log_seen = 0;               ///< lines of the log that were shown
@@ -268,6 +268,7 @@ struct PanelContext {
     // Out.
     Requests requests;
     WorkspaceResult result;
+    bool escape_taken = false;         ///< by an open list or menu: no panel acts on it in this frame
     ItemRecorder* recorder = nullptr;  ///< filled anew when there
 };
 

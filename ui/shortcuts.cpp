@@ -154,11 +154,7 @@ bool act_on_view(PanelContext& context, Action action) {
 
 void close_topmost(PanelContext& context) {
     UiState& ui = context.ui;
-    if (ui.show_shortcuts)
-        ui.show_shortcuts = false;
-    else if (ui.show_about)
-        ui.show_about = false;
-    else if (context.browser.open)
+    if (context.browser.open)
         context.browser.open = false;
     else
         ui.drawer.clear();
@@ -181,7 +177,7 @@ void act_on_interface(PanelContext& context, Action action) {
             ui.focus_search = true;
             break;
         case Action::Shortcuts:
-            ui.show_shortcuts = !ui.show_shortcuts;
+            ui.show_shortcuts = true;
             break;
         case Action::About:
             ui.show_about = true;
@@ -211,9 +207,13 @@ bool is_free(const PanelContext& context, const Shortcut& shortcut) {
     return true;
 }
 
-/// A sheet in the middle of the window that a click beside it closes.
-bool begin_sheet(const char* id, const char* title, float width, bool& open) {
-    if (open && !ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
+constexpr const char* kShortcutSheet = "##shortcuts";
+constexpr const char* kAboutSheet = "##about";
+
+/// A sheet in the middle of the window that Escape or a click beside it closes. opens: open it now.
+bool begin_sheet(const char* id, const char* title, float width, bool& opens) {
+    if (opens) ImGui::OpenPopup(id);
+    opens = false;
     const ImVec2 window = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSizeConstraints({0, 0}, {window.x - px(32), window.y - px(48)});
@@ -221,11 +221,7 @@ bool begin_sheet(const char* id, const char* title, float width, bool& open) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(20), px(16)));
     const bool shown = ImGui::BeginPopup(id, ImGuiWindowFlags_NoMove);
     ImGui::PopStyleVar();
-    if (!shown) {
-        open = false;
-        return false;
-    }
-    if (!open) ImGui::CloseCurrentPopup();
+    if (!shown) return false;
     ImGui::PushFont(font_of(Face::Title));
     ImGui::TextUnformatted(title);
     ImGui::PopFont();
@@ -368,7 +364,7 @@ void handle_shortcuts(PanelContext& context) {
     if (context.unsaved || context.recovery || context.import_sheet) return;
     const ImGuiIO& io = ImGui::GetIO();
     const bool command = io.ConfigMacOSXBehaviors ? io.KeySuper : io.KeyCtrl;
-    if (io.KeyAlt) return;
+    if (io.KeyAlt || context.escape_taken) return;
     for (const Shortcut& shortcut : kShortcuts)
         if (is_pressed(shortcut, command, io.KeyShift) && is_free(context, shortcut))
             act(context, shortcut.action);
@@ -378,7 +374,7 @@ void handle_shortcuts(PanelContext& context) {
 }
 
 void draw_shortcut_sheet(PanelContext& context) {
-    if (!begin_sheet("##shortcuts", "Keyboard and mouse", px(800), context.ui.show_shortcuts)) return;
+    if (!begin_sheet(kShortcutSheet, "Keyboard and mouse", px(800), context.ui.show_shortcuts)) return;
     record_rect(
         context, "sheet.shortcuts",
         {ImGui::GetWindowPos().x, ImGui::GetWindowPos().y, ImGui::GetWindowPos().x + ImGui::GetWindowSize().x,
@@ -397,7 +393,7 @@ void draw_shortcut_sheet(PanelContext& context) {
 }
 
 void draw_about(PanelContext& context) {
-    if (!begin_sheet("##about", "Patina", px(420), context.ui.show_about)) return;
+    if (!begin_sheet(kAboutSheet, "Patina", px(420), context.ui.show_about)) return;
     text_wrapped("A desktop editor for physically based materials under image-based light.");
     ImGui::Dummy({0.0f, px(4)});
     text_wrapped("Version " + context.status.version, color::kMuted);

@@ -108,9 +108,9 @@ void finish_item(PanelContext& context, std::string_view name, std::string_view 
 }
 
 void begin_region(PanelContext& context, std::string_view name, const Rect& rect, const RegionStyle& style) {
-    constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
-                                        ImGuiWindowFlags_NoBringToFrontOnFocus;
+    constexpr ImGuiWindowFlags kFixed =
+        ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+        ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoFocusOnAppearing;
     ImGui::SetNextWindowPos({rect.x0, rect.y0});
     ImGui::SetNextWindowSize({std::max(1.0f, rect.width()), std::max(1.0f, rect.height())});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, style.background);

@@ -1,5 +1,6 @@
 #include "ui/workspace.h"
 
+#include "ui/dialogs.h"
 #include "ui/layout.h"
 #include "ui/panels.h"
 #include "ui/shortcuts.h"
@@ -102,6 +103,22 @@ void draw_splitters(PanelContext& context, const Layout& layout) {
                   ui.drawer_height);
 }
 
+Layout layout_of(const PanelContext& context, glm::vec2 size) {
+    const LayoutInput input{.width = size.x,
+                            .height = size.y,
+                            .scale = context.scale,
+                            .menu_height = menu_height(),
+                            .status_height = status_line_height(),
+                            .toolbar_height = toolbar_height};
+    Layout layout = compute_layout(context.ui, input);
+    if (context.browser.open && layout.viewport.width() < px(560)) {  // a list of files needs some width
+        UiState without_library = context.ui;
+        without_library.show_library = false;
+        layout = compute_layout(without_library, input);
+    }
+    return layout;
+}
+
 void take_drop(PanelContext& context) {
     if (!context.drop) return;
     context.requests.push_back(request::Dropped{context.drop->files, context.ui.hit_slot});
@@ -128,14 +145,10 @@ void draw_workspace(PanelContext& context) {
     if (context.recorder) context.recorder->items.clear();
     context.result = {};
     if (context.drop) context.ui.hit_slot.reset();
+    close_list_on_escape(context);
     handle_shortcuts(context);
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const Layout layout = compute_layout(context.ui, {.width = size.x,
-                                                      .height = size.y,
-                                                      .scale = context.scale,
-                                                      .menu_height = menu_height(),
-                                                      .status_height = status_line_height(),
-                                                      .toolbar_height = toolbar_height});
+    const Layout layout = layout_of(context, {size.x, size.y});
     draw_menu(context);
     draw_pages(context, "library", Side::Left, layout.library, context.ui.left_tab);
     draw_pages(context, "inspector", Side::Right, layout.inspector, context.ui.right_tab);
