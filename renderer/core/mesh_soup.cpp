@@ -14,6 +14,8 @@
 namespace patina {
 namespace {
 
+constexpr std::size_t kMaxTriangles = 300'000'000;  // corners are numbered with 32 bits
+
 bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 bool is_finite(const glm::vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
 
@@ -89,6 +91,8 @@ void cut_faces(const PolygonSoup& soup, Triangles& triangles) {
             for (const std::uint32_t k : t) triangles.corner.push_back(corners[k]);
         }
         if (triangles.corner.size() == before) ++triangles.degenerate;
+        if (triangles.corner.size() > 3 * kMaxTriangles)
+            throw std::runtime_error("more than 300 million triangles are not supported.");
     }
     triangles.corner_place.reserve(triangles.corner.size());
     for (const std::uint32_t c : triangles.corner)

@@ -391,7 +391,7 @@ TEST(LoadMesh, either_reads_or_refuses_any_damaged_file) {
     std::mt19937 random(11);
     int read = 0;
     int refused = 0;
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < 700; ++i) {
         const auto& [name, bytes] = whole[std::size_t(i) % whole.size()];
         const auto file = folder.write(name, damaged(bytes, random));
         try {
@@ -404,8 +404,8 @@ TEST(LoadMesh, either_reads_or_refuses_any_damaged_file) {
             ++refused;
         }
     }
-    EXPECT_GT(read, 200);
-    EXPECT_GT(refused, 200);
+    EXPECT_GT(read, 70);
+    EXPECT_GT(refused, 70);
 }
 
 }  // namespace
