@@ -21,6 +21,7 @@ constexpr float kTransformSharpest = 0.0599f;  ///< the transform's limit
 constexpr int kSharpBand = 1000;
 constexpr double kTruncation = 2e-4;  ///< relative rms of what a level leaves out
 constexpr int kSharpSamples = 1024;
+constexpr double kStrongLight = 500.0;  ///< of the mean radiance: brighter ones are treated by themselves
 
 /// How much of it all is computed.
 struct Plan {
@@ -79,13 +80,14 @@ std::vector<std::vector<double>> make_kernels(const std::vector<float>& roughnes
 }
 
 /// Levels and irradiance of what the extraction left, by the transform; levels it cannot do are left empty.
-std::optional<BakedEnvironment> transform_levels(const RadianceView& view, const BakeSettings& settings,
-                                                 const Plan& plan, const BakeControl& control,
+std::optional<BakedEnvironment> transform_levels(const RadianceView& view,
+                                                 const RadianceStatistics& statistics,
+                                                 const BakeSettings& settings, const Plan& plan,
                                                  Progress& progress) {
+    const BakeControl& control = progress.control;
     Stopwatch stopwatch;
     BakedEnvironment baked;
     std::vector<std::vector<double>> kernels = make_kernels(settings.roughness, plan.band, control);
-    const RadianceStatistics statistics = radiance_statistics(view, control.parallel_for);
     const LegendreTables tables(plan.band, control.parallel_for);
     if (control.stop.stop_requested()) return std::nullopt;
     const ShCoefficients coefficients = analyse(view, tables, control);
@@ -158,19 +160,23 @@ std::optional<BakedEnvironment> bake_environment(const Environment& environment,
     assert(environment.width > 0 && environment.height > 0);
     Progress progress{control, 4.0};
     for (const float roughness : settings.roughness) progress.total += level_cost(roughness);
-    const bool any_sharp = std::any_of(settings.roughness.begin(), settings.roughness.end(), is_sharp);
-    // A sharp lobe turns a sun into rings of a cut-off spectrum: the sun is taken out, and put back exactly.
     Stopwatch stopwatch;
+    const RadianceStatistics statistics = radiance_statistics(view_of(environment), control.parallel_for);
+    // A small bright light has energy in every degree, and a cut-off spectrum turns it into rings: it is
+    // taken out and put back exactly.
+    const bool any_sharp = std::any_of(settings.roughness.begin(), settings.roughness.end(), is_sharp);
+    const glm::vec3 peak = statistics.highest;
+    const bool is_strong = std::max({peak.x, peak.y, peak.z}) > kStrongLight * statistics.mean;
     LightExtraction extraction;
-    if (any_sharp || settings.extract_lights)
-        extraction = extract_lights(environment, {});
+    if (any_sharp || is_strong || settings.extract_lights)
+        extraction = extract_lights(environment, statistics, {});
     else
         extraction.residual = view_of(environment);
     const double extract_ms = stopwatch.lap_ms();
     if (control.stop.stop_requested()) return std::nullopt;
     const Plan plan = {any_sharp ? kSharpBand : kStandardBand};
     std::optional<BakedEnvironment> baked =
-        transform_levels(extraction.residual, settings, plan, control, progress);
+        transform_levels(extraction.residual, statistics, settings, plan, progress);
     if (!baked) return std::nullopt;
     stopwatch.lap_ms();
     if (settings.extract_lights)
@@ -193,7 +199,9 @@ std::optional<BakedEnvironment> bake_first_light(const Environment& environment,
     for (float& roughness : smooth.roughness) roughness = std::max(roughness, kSharpest);
     Progress progress{control, 4.0 + double(settings.roughness.size()) * 3.0};
     const Plan plan = {32, 32};
-    std::optional<BakedEnvironment> baked = transform_levels(view_of(small), smooth, plan, control, progress);
+    const RadianceView view = view_of(small);
+    std::optional<BakedEnvironment> baked =
+        transform_levels(view, radiance_statistics(view, control.parallel_for), smooth, plan, progress);
     if (!baked) return std::nullopt;
     for (std::size_t i = 0; i < settings.roughness.size(); ++i)
         baked->levels[i].roughness = settings.roughness[i];

@@ -1,6 +1,6 @@
 #include "renderer/ibl/cache.h"
 
-#include "renderer/ibl/hash.h"
+#include "renderer/core/hash.h"
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 // irradiance, texels of each level. Texels are kept as floats: a cached bake is bit for bit the bake, so a
 // picture does not depend on the cache.
 constexpr std::array<char, 8> kMagic = {'P', 'a', 't', 'i', 'n', 'a', 'I', 'B'};
-constexpr std::uint32_t kFormat = 1;
+constexpr std::uint32_t kFormat = 2;
 constexpr std::uint32_t kByteOrder = 0x01020304;
 constexpr std::uint32_t kMaxCount = 4096;  ///< levels, or lights, in one entry
 constexpr std::uint32_t kMaxNoteBytes = 1 << 20;
@@ -53,7 +53,11 @@ static_assert(std::is_trivially_copyable_v<Header> && sizeof(Header) == 88);
 static_assert(std::is_trivially_copyable_v<ExtractedLight> && sizeof(ExtractedLight) == 28);
 static_assert(std::is_trivially_copyable_v<glm::vec3> && sizeof(glm::vec3) == 12);
 
-std::uint64_t header_hash(const Header& header) { return hash_bytes(&header, offsetof(Header, header_hash)); }
+std::uint64_t hash_of(const void* data, std::size_t size, std::uint64_t seed = 0) {
+    return hash_bytes({static_cast<const std::byte*>(data), size}, seed);
+}
+
+std::uint64_t header_hash(const Header& header) { return hash_of(&header, offsetof(Header, header_hash)); }
 
 std::uint64_t cube_texels(std::uint64_t size) { return 6 * size * size; }
 
@@ -94,7 +98,7 @@ bool is_plausible(const Header& header, const std::string& key, std::uint64_t ac
 /// Reads into memory that is already sized, and continues the hash.
 bool read_section(std::ifstream& in, Section part, std::uint64_t& hash) {
     if (!in.read(static_cast<char*>(part.data), std::streamsize(part.bytes))) return false;
-    hash = hash_bytes(part.data, part.bytes, hash);
+    hash = hash_of(part.data, part.bytes, hash);
     return true;
 }
 
@@ -136,7 +140,7 @@ Header make_header(const std::string& key, Body& body, BakedEnvironment& baked) 
     header.file_bytes = sizeof(Header);
     for (const Section& part : sections(body, baked)) {
         header.file_bytes += part.bytes;
-        header.payload_hash = hash_bytes(part.data, part.bytes, header.payload_hash);
+        header.payload_hash = hash_of(part.data, part.bytes, header.payload_hash);
     }
     header.header_hash = header_hash(header);
     return header;
@@ -196,7 +200,7 @@ std::string bake_key(const Environment& environment, const BakeSettings& setting
         std::uint64_t(settings.max_face_size), std::uint64_t(settings.extract_lights)};
     for (const float roughness : settings.roughness) words.push_back(std::bit_cast<std::uint32_t>(roughness));
     const std::size_t bytes = words.size() * sizeof(words[0]);
-    return hex(hash_bytes(words.data(), bytes, 1)) + hex(hash_bytes(words.data(), bytes, 2));
+    return hex(hash_of(words.data(), bytes, 1)) + hex(hash_of(words.data(), bytes, 2));
 }
 
 std::optional<BakedEnvironment> load_baked(const BakeCache& cache, const std::string& key) {

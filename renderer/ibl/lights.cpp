@@ -207,19 +207,16 @@ FoldedLight prepare(const Geometry& geometry, const std::vector<LightTexel>& tex
 
 }  // namespace
 
-LightExtraction extract_lights(const Environment& environment, const LightSearch& search) {
+LightExtraction extract_lights(const Environment& environment, const RadianceStatistics& statistics,
+                               const LightSearch& search) {
     const Geometry geometry{environment};
-    double mean = 0.0;
-    for (int y = 0; y < environment.height; ++y) {
-        double row = 0.0;
-        for (int x = 0; x < environment.width; ++x)
-            row += luminance(geometry.radiance(y * environment.width + x));
-        mean += geometry.area(y) * row;
-    }
-    mean /= 4.0 * kPi;
+    const double mean = luminance(statistics.mean_color);
     Region bright;
-    for (int i = 0; i < int(environment.radiance.size()); ++i)
-        if (luminance(geometry.radiance(i)) > search.threshold * mean) bright.push_back(i);
+    const float threshold = float(search.threshold * mean);
+    for (std::size_t i = 0; i < environment.radiance.size(); ++i) {
+        const glm::vec3& L = environment.radiance[i];
+        if (std::max({L.x, L.y, L.z}) > threshold && luminance(L) > threshold) bright.push_back(int(i));
+    }
     LightExtraction result;
     result.residual = view_of(environment);
     if (bright.empty() || bright.size() * 4 > environment.radiance.size()) return result;

@@ -31,7 +31,8 @@ struct LightSearch {
 /// Connected texels above the threshold are a light if their flux lies within the radius; wider ones are
 /// searched again at four times the threshold, so a sun in a bright sky is found and a softbox stays. What is
 /// taken is the excess over the mean of the texels around. Extracted and residual sum to the original.
-LightExtraction extract_lights(const Environment& environment, const LightSearch& search);
+LightExtraction extract_lights(const Environment& environment, const RadianceStatistics& statistics,
+                               const LightSearch& search);
 
 /// Adds to a level what it would hold of the lights, had they stayed: the kernel integrated over every texel
 /// taken.

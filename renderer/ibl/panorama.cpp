@@ -13,7 +13,8 @@ namespace {
 /// A strip of rows, reduced to patches.
 struct Strip {
     glm::vec3 lowest, highest;
-    double sum = 0.0, square = 0.0, area = 0.0;
+    glm::dvec3 sum{0.0};
+    double square = 0.0, area = 0.0;
     std::vector<glm::dvec3> patch_sum;  ///< of this strip's rows, by column of patches
 };
 
@@ -39,7 +40,7 @@ Strip measure_strip(const RadianceView& e, int first_row, int last_row, int patc
         }
         strip.area += area * e.width;
     }
-    for (const glm::dvec3& sum : strip.patch_sum) strip.sum += (sum.x + sum.y + sum.z) / 3.0;
+    for (const glm::dvec3& sum : strip.patch_sum) strip.sum += sum;
     return strip;
 }
 
@@ -94,11 +95,12 @@ RadianceStatistics radiance_statistics(const RadianceView& e, const ParallelFor&
     for (const Strip& strip : all) {
         s.lowest = glm::min(s.lowest, strip.lowest);
         s.highest = glm::max(s.highest, strip.highest);
-        s.mean += strip.sum;
+        s.mean_color += strip.sum;
         s.mean_square += strip.square;
         area += strip.area;
     }
-    s.mean /= area;
+    s.mean_color /= area;
+    s.mean = (s.mean_color.x + s.mean_color.y + s.mean_color.z) / 3.0;
     s.mean_square /= area;
     if (s.mean <= 0.0) return s;
     double inverse_squares = 0.0;

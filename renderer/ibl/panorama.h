@@ -20,7 +20,8 @@ Environment reduce(const Environment& environment, int width, int height, const 
 
 struct RadianceStatistics {
     glm::vec3 lowest{0.0f}, highest{0.0f};  ///< channel by channel
-    double mean = 0.0;                      ///< over the sphere and the channels
+    glm::dvec3 mean_color{0.0};             ///< over the sphere
+    double mean = 0.0;                      ///< likewise, over the channels too
     double mean_square = 0.0;               ///< likewise
     /// What an error, the same everywhere, is divided by to give a relative error: 1/√(mean of 1/L²), L
     /// averaged over patches and taken no darker than a thousandth of the mean. A dark studio needs its

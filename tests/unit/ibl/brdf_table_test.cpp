@@ -1,8 +1,15 @@
 #include "renderer/ibl/bake.h"
+#include "renderer/ibl/legendre.h"
 
+#include <glm/common.hpp>
+#include <glm/ext/vector_double2.hpp>
+#include <glm/ext/vector_double3.hpp>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace patina {
 namespace {
@@ -55,6 +62,63 @@ TEST(BrdfTable, has_the_known_average_albedos) {
     EXPECT_NEAR(average_albedo(table, 0.5), 0.8823, 3e-4);
     EXPECT_NEAR(average_albedo(table, 0.75), 0.6562, 3e-4);
     EXPECT_NEAR(average_albedo(table, 1.0), 0.4091, 3e-4);
+}
+
+/// A and B by an independent rule: all visible normals, Gauss in height and equal steps in azimuth.
+glm::dvec2 exact_albedo(double NoV, double alpha) {
+    constexpr int kHeights = 400, kAzimuths = 200;
+    const double sin_v = std::sqrt(1.0 - NoV * NoV), a2 = alpha * alpha;
+    const double length = std::sqrt(a2 * sin_v * sin_v + NoV * NoV);
+    const double vx = alpha * sin_v / length, vz = NoV / length;
+    const auto lambda = [&](double c) { return 0.5 * (std::sqrt(1.0 + a2 * (1.0 - c * c) / (c * c)) - 1.0); };
+    const GaussNodes gauss(kHeights);
+    glm::dvec2 sum(0.0);
+    for (int i = 0; i < kHeights; ++i)
+        for (int j = 0; j < kAzimuths; ++j) {
+            const double z = 1.0 - (1.0 + vz) * gauss.x[i] * gauss.x[i];
+            const double phi = std::numbers::pi * (j + 0.5) / kAzimuths,
+                         ring = std::sqrt(std::max(0.0, 1.0 - z * z));
+            glm::dvec3 H(alpha * (ring * std::cos(phi) + vx), alpha * ring * std::sin(phi), z + vz);
+            H = glm::normalize(H);
+            const double VoH = H.x * sin_v + H.z * NoV, NoL = 2.0 * VoH * H.z - NoV;
+            if (NoL <= 0.0) continue;
+            const double weight = 2.0 * gauss.x[i] * gauss.weight[i] / kAzimuths;
+            const double g = weight * (1.0 + lambda(NoV)) / (1.0 + lambda(NoV) + lambda(NoL));
+            const double fresnel = std::pow(1.0 - VoH, 5.0);
+            sum += g * glm::dvec2(1.0 - fresnel, fresnel);
+        }
+    return sum;
+}
+
+/// As a texture unit fetches it: 16 bits, bilinear.
+glm::dvec2 fetch(const BrdfTable& table, double NoV, double roughness) {
+    const double x = std::clamp(std::sqrt(NoV) * table.size - 0.5, 0.0, table.size - 1.0);
+    const double y = std::clamp(roughness * table.size - 0.5, 0.0, table.size - 1.0);
+    const int x0 = std::min(int(x), table.size - 2), y0 = std::min(int(y), table.size - 2);
+    const auto at = [&](int dx, int dy) {
+        const glm::dvec2 ab = table.ab[std::size_t(y0 + dy) * table.size + x0 + dx];
+        return glm::round(ab * 65535.0) / 65535.0;
+    };
+    return glm::mix(glm::mix(at(0, 0), at(1, 0), x - x0), glm::mix(at(0, 1), at(1, 1), x - x0), y - y0);
+}
+
+TEST(BrdfTable, is_accurate_as_fetched) {
+    const BrdfTable table = bake_brdf_table();
+    const double last = 1.0 - 0.5 / table.size;  // beyond the outermost texels' centres a fetch is constant
+    double square = 0.0, largest = 0.0;
+    int count = 0;
+    for (int i = 0; i < 150; ++i) {
+        const double u = std::fmod((i + 0.5) * 0.7548776662466927, 1.0),
+                     v = std::fmod((i + 0.5) * 0.5698402909980532, 1.0);
+        const double NoV = std::pow(std::lerp(0.1, last, u), 2.0), roughness = std::lerp(0.03, last, v);
+        const glm::dvec2 error =
+            glm::abs(fetch(table, NoV, roughness) - exact_albedo(NoV, roughness * roughness));
+        largest = std::max({largest, error.x, error.y});
+        square += error.x * error.x + error.y * error.y;
+        count += 2;
+    }
+    EXPECT_LE(std::sqrt(square / count), 1e-4);
+    EXPECT_LE(largest, 5e-4);
 }
 
 }  // namespace

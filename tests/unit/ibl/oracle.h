@@ -1,4 +1,4 @@
-// What the baker is judged by: double-precision quadrature, environments made in place, a scratch folder.
+// What the baker is judged by: environments made in place, a scratch folder.
 #pragma once
 
 #include "renderer/ibl/bake.h"
@@ -25,13 +25,6 @@ Environment noise_panorama(int width, int height, unsigned seed);
 
 /// Mean radiance over the sphere, texels weighted by their exact solid angle.
 glm::dvec3 mean_radiance(const Environment& environment);
-
-/// ∫ K dω in closed form: with y = 1 − cos θ, q = (1 − α²)/2, it is 2πα² ∫ (1 − y)/(qy + α²)² dy over 0 … 1.
-double kernel_integral(double alpha);
-
-/// ∫ L K(N·l) dl / ∫ K(N·l) dl with K = D((1+N·l)/2)·N·l: the sum over all texels, each split until its parts
-/// are small against the lobe and integrated by Gauss's rule. Errs less than 1e-5.
-glm::dvec3 prefiltered_radiance(const Environment& environment, glm::dvec3 N, double roughness);
 
 /// A folder of its own, removed at the end.
 class ScratchFolder {
