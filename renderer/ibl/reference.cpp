@@ -83,7 +83,7 @@ double PrefilterReference::kernel_over(const Cell& cell, glm::dvec3 N, double al
     const double nearest = std::max(0.0, angle - 0.5 * std::hypot(cell.height, width));
     const double lobe = std::max(alpha, 0.5 * nearest), size = std::max(cell.height, width);
     const bool at_horizon = std::abs(angle - kPi / 2) < size;  // where the kernel has a kink
-    if (size > 0.5 * lobe || (at_horizon && size > 0.01)) {
+    if (size > 0.5 * lobe || (at_horizon && size > 0.0015)) {
         Cell one = cell, two = cell;
         double Cell::*const side = cell.height > width ? &Cell::height : &Cell::width;
         double Cell::*const middle = cell.height > width ? &Cell::theta : &Cell::phi;
