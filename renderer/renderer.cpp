@@ -1,6 +1,7 @@
 #include "renderer/renderer.h"
 
 #include "renderer/features.h"
+#include "renderer/gl/brdf_table.h"
 #include "renderer/gl/environment.h"
 #include "renderer/gl/mesh.h"
 #include "renderer/gl/program.h"
@@ -22,16 +23,10 @@ namespace {
 
 gl::Texture make_brdf_texture() {
     const gl::KeepTextureBindings keep;
-    const BrdfTable table = bake_brdf_table();
-    std::vector<std::uint16_t> texels;
-    texels.reserve(2 * table.ab.size());
-    for (const glm::vec2& ab : table.ab)
-        for (int c = 0; c < 2; ++c)
-            texels.push_back(std::uint16_t(std::clamp(ab[c], 0.0f, 1.0f) * 65535.0f + 0.5f));
     gl::Texture texture = gl::Texture::make();
     glBindTexture(GL_TEXTURE_2D, texture.name());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG16, table.size, table.size, 0, GL_RG, GL_UNSIGNED_SHORT,
-                 texels.data());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG16, kBrdfTableSize, kBrdfTableSize, 0, GL_RG, GL_UNSIGNED_SHORT,
+                 embedded::brdf_table().data());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -171,7 +166,15 @@ void Renderer::State::draw_radiance(const Scene& scene, const GpuEnvironment& en
             if (scene.maps[i])
                 bind_texture(gl::kFirstMapUnit + GLuint(i), GL_TEXTURE_2D, scene.maps[i]->texture);
         glUseProgram(surface(features).name());
-        gl::draw_mesh(*scene.mesh);
+        // Surfaces are seen from both sides, but what faces the viewer mostly hides what does not: drawing it
+        // first leaves the rest to the depth test instead of the shader.
+        glEnable(GL_CULL_FACE);
+        glFrontFace(GL_CCW);
+        for (const GLenum hidden : {GL_BACK}) {
+            glCullFace(hidden);
+            gl::draw_mesh(*scene.mesh);
+        }
+        glDisable(GL_CULL_FACE);
     }
     // After the mesh, at the far plane: only what the mesh leaves free is computed.
     if (scene.view.background == Background::Plain || is_data_view(scene.view.debug)) return;

@@ -14,8 +14,8 @@ vec3 uv_checker(vec2 uv) {
     return color;
 }
 
-vec3 debug_color(Surface s, vec3 N, vec3 V, Reflected light, vec2 st) {
-    int view = int(counts.y);
+// Views of stored numbers, which need no light; the numbers are DebugView's.
+vec3 stored_color(int view, Surface s, vec3 N, vec3 V, vec2 st) {
     if (view == 1) return s.albedo;
     if (view == 2) return decode_srgb(vec3(s.roughness));
     if (view == 3) return decode_srgb(vec3(s.metallic));
@@ -34,9 +34,13 @@ vec3 debug_color(Surface s, vec3 N, vec3 V, Reflected light, vec2 st) {
         return decode_srgb(clamp(t * 0.5 + 0.5, 0.0, 1.0));
     }
     if (view == 8) return decode_srgb(vec3(fract(map_uv), 0.0));
-    if (view == 9) return decode_srgb(uv_checker(map_uv) * (0.4 + 0.6 * clamp(dot(N, V), 0.0, 1.0)));
-    if (view == 10) return light.diffuse;
-    if (view == 11) return light.specular;
+    return decode_srgb(uv_checker(map_uv) * (0.4 + 0.6 * clamp(dot(N, V), 0.0, 1.0)));
+}
+
+vec3 debug_color(Surface s, vec3 N, vec3 V, vec2 st) {
+    int view = int(counts.y);
     if (view == 12) return s.emission;
-    return light.diffuse + light.specular + s.emission;
+    if (view < 10) return stored_color(view, s, N, V, st);
+    Reflected light = reflected_light(s, N, V);
+    return view == 10 ? light.diffuse : light.specular;
 }

@@ -48,12 +48,15 @@ vec3 prefiltered_light(vec3 d, float roughness) {
 
 #ifdef HAS_SHARP
 // A golden-angle spiral of equal shares of the core: q = u/(1 − u) at u = (i + ½)/n, and the azimuth.
-const int kCoreSamples = 24;
-const float kGoldenAngle = 2.39996323;
+const int kCoreSamples = 16;
+const vec2 kGoldenTurn = vec2(-0.7373688, 0.6754903);   // cos and sin of the golden angle
 
 // The compact core that a lobe sharper than the sharpest level has beyond that level's tails (core_tangent2): importance
 // samples of the panorama, each averaged over the solid angle it stands for (Krivánek & Colbert 2008) and the pixel's.
+// Without any lobe that sharp among the pixels shaded together the loop is not entered; software renderers execute both
+// sides of an `if`, so a loop of no turns is what spares them the work.
 vec3 core_light(vec3 R, float alpha, float pixel_solid_angle) {
+    int count = alpha < level_layout.w ? kCoreSamples : 0;
     float alpha2 = max(alpha * alpha, 1e-14);
     float alpha1_2 = level_layout.w * level_layout.w;
     // Azimuths count from the panorama's own east, so that the pattern turns smoothly everywhere but at its poles.
@@ -62,18 +65,20 @@ vec3 core_light(vec3 R, float alpha, float pixel_solid_angle) {
     vec3 north = cross(R, east);
     vec3 sum = vec3(0.0);
     float weights = 0.0;
-    for (int i = 0; i < kCoreSamples; ++i) {
+    vec2 azimuth = vec2(1.0, 0.0);
+    for (int i = 0; i < count; ++i) {
         float u = (float(i) + 0.5) / float(kCoreSamples);
         float t = core_tangent2(u / (1.0 - u), alpha2, alpha1_2);
         float share = 1.0 / (float(kCoreSamples) * max(core_density(t, alpha2, alpha1_2), 1e-12));
         // l = 2 (n·h) h − n with n = R: cos θ_l = (1 − t)/(1 + t), sin θ_l = 2 √t/(1 + t).
         float cosine = (1.0 - t) / (1.0 + t);
         float sine = 2.0 * sqrt(t) / (1.0 + t);
-        float azimuth = kGoldenAngle * float(i);
-        vec3 l = cosine * R + sine * (cos(azimuth) * east + sin(azimuth) * north);
+        vec3 l = cosine * R + sine * (azimuth.x * east + azimuth.y * north);
         float weight = max(cosine, 0.0);
         sum += weight * panorama_light(l, share + pixel_solid_angle);
         weights += weight;
+        azimuth = vec2(azimuth.x * kGoldenTurn.x - azimuth.y * kGoldenTurn.y,
+                       azimuth.x * kGoldenTurn.y + azimuth.y * kGoldenTurn.x);
     }
     return sum / max(weights, 1e-6);
 }
@@ -82,13 +87,11 @@ vec3 core_light(vec3 R, float alpha, float pixel_solid_angle) {
 // Light reflected along R by the lobe of N = V = R; pixel_solid_angle: how much of the sphere R covers in this pixel.
 vec3 specular_light(vec3 R, float roughness, float pixel_solid_angle) {
     vec3 d = environment_direction(R);
+    vec3 light = prefiltered_light(d, roughness);   // below the sharpest level it is that level
 #ifdef HAS_SHARP
-    if (roughness < level_layout.z) {
-        float alpha = roughness * roughness;
-        float tails = square(alpha / level_layout.w);
-        vec3 wide = level_light(d, 0.0) * env_scale.y;
-        return mix(core_light(d, alpha, pixel_solid_angle), wide, tails);
-    }
+    float alpha = roughness * roughness;
+    float tails = min(square(alpha / level_layout.w), 1.0);
+    light = tails * light + (1.0 - tails) * core_light(d, alpha, pixel_solid_angle);
 #endif
-    return prefiltered_light(d, roughness);
+    return light;
 }

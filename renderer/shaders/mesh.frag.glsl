@@ -77,10 +77,10 @@ void main() {
     vec3 V = normalize(camera_position.xyz - world_position);
     Surface s = read_surface(st);
     vec3 N = shading_normal(V, st);
-    Reflected light = reflected_light(s, N, V);
 #ifdef HAS_DEBUG
-    vec3 color = debug_color(s, N, V, light, st);
+    vec3 color = debug_color(s, N, V, st);
 #else
+    Reflected light = reflected_light(s, N, V);
     vec3 color = light.diffuse + light.specular + s.emission;
 #endif
     picture_color = vec4(min(at_least(color, 0.0), vec3(ray_right.w)), 1.0);
