@@ -26,6 +26,11 @@ struct HeadlessContext::State {
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;
     EGLSurface surface = EGL_NO_SURFACE;
+    // What was current on this thread before, and is again afterwards.
+    EGLDisplay previous_display = eglGetCurrentDisplay();
+    EGLContext previous_context = eglGetCurrentContext();
+    EGLSurface previous_draw = eglGetCurrentSurface(EGL_DRAW);
+    EGLSurface previous_read = eglGetCurrentSurface(EGL_READ);
 };
 
 namespace {
@@ -104,16 +109,23 @@ HeadlessContext::HeadlessContext() : state_(std::make_unique<State>()) {
 }
 
 // The display stays initialised: EGL shares it within the process and other contexts may live on it.
-HeadlessContext::~HeadlessContext() { release(state_->display, state_->context, state_->surface); }
+HeadlessContext::~HeadlessContext() {
+    release(state_->display, state_->context, state_->surface);
+    if (state_->previous_context != EGL_NO_CONTEXT)
+        eglMakeCurrent(state_->previous_display, state_->previous_draw, state_->previous_read,
+                       state_->previous_context);
+}
 
 #else
 
 struct HeadlessContext::State {
     GLFWwindow* window = nullptr;
+    GLFWwindow* previous = nullptr;
 };
 
 HeadlessContext::HeadlessContext() : state_(std::make_unique<State>()) {
     if (!glfwInit()) throw std::runtime_error(kNoContext);
+    state_->previous = glfwGetCurrentContext();
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
@@ -125,7 +137,10 @@ HeadlessContext::HeadlessContext() : state_(std::make_unique<State>()) {
     glfwMakeContextCurrent(state_->window);
 }
 
-HeadlessContext::~HeadlessContext() { glfwDestroyWindow(state_->window); }
+HeadlessContext::~HeadlessContext() {
+    glfwDestroyWindow(state_->window);
+    if (state_->previous) glfwMakeContextCurrent(state_->previous);
+}
 
 #endif
 

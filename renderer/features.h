@@ -22,23 +22,17 @@ enum class Feature : Features {
     NormalMap = 1u << 4,
     EmissionMap = 1u << 5,  ///< implies Emission
     Emission = 1u << 6,
-    Sharp = 1u << 7,   ///< roughness may be below the sharpest prefiltered level
-    Lights = 1u << 8,  ///< sources were taken out of the environment
-    Course = 1u << 9,  ///< the lecture's formulas
-    Debug = 1u << 10,  ///< one ingredient instead of the picture
+    Sharp = 1u << 7,   ///< roughness may be below the sharpest prefiltered level; a roughness map implies it
+    Course = 1u << 8,  ///< the lecture's formulas
+    Debug = 1u << 9,   ///< one ingredient instead of the picture; implies Sharp and Emission
 };
 
 inline bool has(Features features, Feature feature) { return (features & Features(feature)) != 0; }
 
-/// What a permutation must know of the light.
-struct LightTraits {
-    float sharpest_roughness = 0.0f;  ///< of the prefiltered levels
-    bool has_lights = false;
-};
-
-/// bound: which slots have a map on the GPU. A map whose value is 0 is not read.
+/// bound: which slots have a map on the GPU; a map whose value is 0 is not read. sharpest_roughness: of the
+/// light's prefiltered levels.
 Features features_of(const Material& material, const std::bitset<kMapSlots>& bound, const View& view,
-                     const LightTraits& light);
+                     float sharpest_roughness);
 
 /// Every value features_of can return.
 std::vector<Features> all_features();

@@ -61,8 +61,7 @@ LightLayout layout_of(const GpuEnvironment& environment) {
 Features features_for(const Scene& scene, const GpuEnvironment& environment) {
     std::bitset<kMapSlots> bound;
     for (std::size_t i = 0; i < scene.maps.size(); ++i) bound[i] = scene.maps[i] != nullptr;
-    const LightTraits light{environment.roughness.front(), !environment.lights.empty()};
-    return features_of(scene.material, bound, scene.view, light);
+    return features_of(scene.material, bound, scene.view, environment.roughness.front());
 }
 
 template <class Block>
@@ -166,15 +165,7 @@ void Renderer::State::draw_radiance(const Scene& scene, const GpuEnvironment& en
             if (scene.maps[i])
                 bind_texture(gl::kFirstMapUnit + GLuint(i), GL_TEXTURE_2D, scene.maps[i]->texture);
         glUseProgram(surface(features).name());
-        // Surfaces are seen from both sides, but what faces the viewer mostly hides what does not: drawing it
-        // first leaves the rest to the depth test instead of the shader.
-        glEnable(GL_CULL_FACE);
-        glFrontFace(GL_CCW);
-        for (const GLenum hidden : {GL_BACK}) {
-            glCullFace(hidden);
-            gl::draw_mesh(*scene.mesh);
-        }
-        glDisable(GL_CULL_FACE);
+        gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
     }
     // After the mesh, at the far plane: only what the mesh leaves free is computed.
     if (scene.view.background == Background::Plain || is_data_view(scene.view.debug)) return;

@@ -110,7 +110,7 @@ PanoramaLevels::Level to_level(const Plane& plane, int exponent) {
 
 int half_exponent(float largest) {
     if (!(largest > 0.0f)) return 0;
-    return std::clamp(int(std::ceil(std::log2(largest))) - 15, -110, 110);
+    return std::clamp(int(std::ceil(std::log2(largest))) - 15, -110, 113);
 }
 
 PanoramaLevels make_panorama_levels(const Environment& environment, int max_width) {

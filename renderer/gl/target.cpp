@@ -190,6 +190,8 @@ KeepDrawState::KeepDrawState() {
     glGetIntegerv(GL_ACTIVE_TEXTURE, &active_texture_);
     glGetIntegerv(GL_UNIFORM_BUFFER_BINDING, &uniform_buffer_);
     glGetIntegerv(GL_DEPTH_FUNC, &depth_function_);
+    glGetIntegerv(GL_FRONT_FACE, &front_face_);
+    glGetIntegerv(GL_CULL_FACE_MODE, &culled_);
     glGetIntegerv(GL_POLYGON_MODE, polygon_mode_);
     glGetIntegerv(GL_VIEWPORT, viewport_);
     glGetBooleanv(GL_DEPTH_WRITEMASK, &depth_mask_);
@@ -210,6 +212,8 @@ KeepDrawState::~KeepDrawState() {
     glActiveTexture(GLenum(active_texture_));
     glBindBuffer(GL_UNIFORM_BUFFER, GLuint(uniform_buffer_));
     glDepthFunc(GLenum(depth_function_));
+    glFrontFace(GLenum(front_face_));
+    glCullFace(GLenum(culled_));
     glPolygonMode(GL_FRONT_AND_BACK, GLenum(polygon_mode_[0]));
     glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
     glDepthMask(depth_mask_);

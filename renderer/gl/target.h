@@ -57,7 +57,8 @@ private:
     static constexpr int kSwitchCount = sizeof(kSwitches) / sizeof(kSwitches[0]);
     GLboolean switches_[kSwitchCount] = {};
     GLint draw_framebuffer_ = 0, read_framebuffer_ = 0, program_ = 0, vertex_array_ = 0, active_texture_ = 0;
-    GLint uniform_buffer_ = 0, depth_function_ = GL_LESS, polygon_mode_[2] = {GL_FILL, GL_FILL};
+    GLint uniform_buffer_ = 0, depth_function_ = GL_LESS, front_face_ = GL_CCW, culled_ = GL_BACK,
+          polygon_mode_[2] = {GL_FILL, GL_FILL};
     GLint viewport_[4] = {};
     GLboolean depth_mask_ = GL_TRUE;
     GLboolean color_mask_[4] = {GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE};

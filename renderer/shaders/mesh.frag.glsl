@@ -16,14 +16,13 @@ struct Reflected {
     vec3 specular;
 };
 
-#ifdef HAS_LIGHTS
 // Sources taken out of the environment's levels, as discs: alpha² widened by the square of half their angular radius. A
 // lobe sharper than the sharpest level sees them in the panorama too, so only its tails (share a²) count here.
 void add_lights(inout Reflected sum, Surface s, ReflectionWeights w, vec3 N, vec3 V, vec2 ab) {
     vec3 F0 = base_reflectance(s.albedo, s.metallic);
     float sharpest2 = square(level_layout.w);
     float alpha2 = square(square(s.roughness));
-    float share = sharpest2 > 0.0 ? min(alpha2 / sharpest2, 1.0) : 1.0;
+    float share = min(alpha2 / sharpest2, 1.0);
     alpha2 = max(alpha2, sharpest2);
     float NoV = max(dot(N, V), 1e-4);
     for (int i = 0; i < PATINA_MAX_LIGHTS; ++i) {
@@ -40,7 +39,6 @@ void add_lights(inout Reflected sum, Surface s, ReflectionWeights w, vec3 N, vec
         sum.diffuse += w.diffuse * E * (NoL / kPi);
     }
 }
-#endif
 
 Reflected reflected_light(Surface s, vec3 N, vec3 V) {
     float NoV = max(dot(N, V), 1e-4);
@@ -49,7 +47,8 @@ Reflected reflected_light(Surface s, vec3 N, vec3 V) {
 #ifdef HAS_SHARP
     vec3 across = dFdx(R);
     vec3 up = dFdy(R);
-    pixel = min(0.5 * (dot(across, across) + dot(up, up)), 4.0 * kPi);
+    // At a silhouette, where R turns without end, the neighbours it is measured against lie beside the surface.
+    pixel = min(0.5 * (dot(across, across) + dot(up, up)), 0.05);
 #endif
     vec2 ab = texture(brdf_table, vec2(sqrt(NoV), s.roughness)).rg;
 #ifdef HAS_COURSE
@@ -62,9 +61,7 @@ Reflected reflected_light(Surface s, vec3 N, vec3 V) {
     Reflected sum;
     sum.specular = (w.single * prefiltered + w.multiple * irradiance) * s.ao;
     sum.diffuse = w.diffuse * irradiance * s.ao;
-#ifdef HAS_LIGHTS
     add_lights(sum, s, w, N, V, ab);
-#endif
     return sum;
 }
 

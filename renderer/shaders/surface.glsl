@@ -73,12 +73,6 @@ Surface read_surface(vec2 st) {
     return s;
 }
 
-// The face's own normal, towards the viewer; zero where the triangle has no area on screen.
-vec3 face_normal(vec3 V) {
-    vec3 n = cross(dFdx(world_position), dFdy(world_position));
-    return dot(n, V) < 0.0 ? -n : n;
-}
-
 #ifdef HAS_NORMAL_MAP
 // Tangent and bitangent for an unnormalised interpolated normal n. As MikkTSpace's bakers do, neither is normalised nor
 // made orthogonal here. Meshes without tangents have zero ones and get a frame from the uv gradients (Mikkelsen 2010).
@@ -102,13 +96,11 @@ mat2x3 tangent_frame(vec3 n) {
 }
 #endif
 
-// The normal as shaded: interpolated, mapped, turned to the side that is seen, and where it still faces away bent until
-// N·V = 1e-4 (a mirrored normal would reflect light from inside).
+// The normal as shaded: interpolated, mapped, turned to the side that is seen (triangles are wound to agree with their
+// normals), and where it still faces away bent until N·V = 1e-4 (a mirrored normal would reflect light from inside).
 vec3 shading_normal(vec3 V, vec2 st) {
-    vec3 face = face_normal(V);
-    vec3 n = world_normal;
-    if (!(dot(n, n) > 1e-12)) n = dot(face, face) > 0.0 ? normalize(face) : V;
-    float side = dot(n, face) < 0.0 ? -1.0 : 1.0;
+    float side = gl_FrontFacing ? 1.0 : -1.0;
+    vec3 n = dot(world_normal, world_normal) > 1e-12 ? world_normal : side * V;
 #ifdef HAS_NORMAL_MAP
     mat2x3 frame = tangent_frame(n);
     vec3 stored = texture(normal_map, st).xyz * 2.0 - 1.0;
