@@ -479,6 +479,9 @@ Material apply_import(Material material, const ImportProposal& proposal) {
             continue;
         reset_slot(material, slot.slot);
     }
+    // Whoever sells a metal sells its metallic map: a set without one is none, whatever was there before.
+    if (proposal.clear_other_maps && filled.count(MapSlot::Albedo) && !filled.count(MapSlot::Metallic))
+        reset_slot(material, MapSlot::Metallic);
     if (material.name == defaults.name && !proposal.name.empty()) material.name = proposal.name;
     return material;
 }

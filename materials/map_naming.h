@@ -52,7 +52,7 @@ void choose_slot(ImportProposal& proposal, std::size_t row, std::optional<MapSlo
 
 /// The material with those maps: `map` is the row's file as it stands, its value becomes 1 (the map alone
 /// decides), and a material without a name takes the set's. If clear_other_maps, slots that keep an old map
-/// go back to their defaults.
+/// go back to their defaults, and a set with a base colour but no metallic map is taken for a non-metal.
 Material apply_import(Material material, const ImportProposal& proposal);
 
 }  // namespace patina

@@ -433,6 +433,16 @@ TEST(ImportSheet, a_set_clears_the_maps_of_the_set_before_but_no_value_set_by_ha
     EXPECT_FALSE(proposed({"oak_rough.png"}).clear_other_maps) << "one map replaces one map";
 }
 
+TEST(ImportSheet, wood_dropped_on_gold_is_not_a_metal) {
+    Material gold;
+    gold.metallic.value = 1.0f;
+    EXPECT_EQ(apply_import(gold, proposed({"oak_col.png", "oak_rough.png"})).metallic.value, 0.0f);
+    EXPECT_EQ(apply_import(gold, proposed({"gold_nor.png", "gold_rough.png"})).metallic.value, 1.0f)
+        << "finer relief for the same metal";
+    EXPECT_EQ(apply_import(gold, proposed({"gold_col.png"})).metallic.value, 1.0f)
+        << "one map replaces one map";
+}
+
 TEST(MapWords, names_are_taken_apart_at_separators_humps_and_digits) {
     const auto words = [](const char* name) {
         std::string text;
