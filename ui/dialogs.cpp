@@ -22,9 +22,9 @@ bool begin_question(PanelContext& context, const char* id, std::string_view titl
     ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {window.x, window.y - px(32)});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(20), px(18)));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(8));
-    constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
-    const bool open = ImGui::BeginPopupModal(id, nullptr, kFlags);
+    constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
+    const bool open = ImGui::BeginPopupModal(id, nullptr, flags);
     ImGui::PopStyleVar(2);
     context.result.wants_redraw |= ImGui::GetCurrentContext()->DimBgRatio < 1.0f;
     if (!open) return false;

@@ -205,10 +205,10 @@ void draw_entry(PanelContext& context, const BrowserEntry& entry, bool& act_on_i
 }
 
 void draw_entries(PanelContext& context, const std::vector<const BrowserEntry*>& entries, float height) {
-    constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg;
+    constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg;
     FileBrowser& browser = context.browser;
     if (!browser.error.empty()) text_wrapped(browser.error, color::kError);
-    if (!ImGui::BeginTable("##entries", 3, kFlags, {0.0f, height})) return;
+    if (!ImGui::BeginTable("##entries", 3, flags, {0.0f, height})) return;
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("Size", ImGuiTableColumnFlags_WidthFixed, px(70));

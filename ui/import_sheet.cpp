@@ -88,12 +88,12 @@ void draw_row(PanelContext& context, const ImportSheet& sheet, ImportRow& row, s
 }
 
 void draw_table(PanelContext& context, ImportSheet& sheet) {
-    constexpr ImGuiTableFlags kFlags =
+    constexpr ImGuiTableFlags flags =
         ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_ScrollY;
     const float row = px(54);
     const float most = ImGui::GetIO().DisplaySize.y - px(260);
     const float height = std::min(most, row * static_cast<float>(sheet.rows.size()) + px(34));
-    if (!ImGui::BeginTable("##rows", 4, kFlags, {0.0f, std::max(px(90), height)})) return;
+    if (!ImGui::BeginTable("##rows", 4, flags, {0.0f, std::max(px(90), height)})) return;
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, px(40));
     ImGui::TableSetupColumn("File, and why", ImGuiTableColumnFlags_WidthStretch);

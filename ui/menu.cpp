@@ -36,7 +36,7 @@ bool is_checked(const PanelContext& context, Action action) {
 }
 
 std::string line_title(const PanelContext& context, const Shortcut& shortcut) {
-    const std::string title(shortcut.title);
+    std::string title(shortcut.title);
     const Status& status = context.status;
     if (shortcut.action == Action::Undo && !status.undo_what.empty()) return title + " " + status.undo_what;
     if (shortcut.action == Action::Redo && !status.redo_what.empty()) return title + " " + status.redo_what;
@@ -44,10 +44,10 @@ std::string line_title(const PanelContext& context, const Shortcut& shortcut) {
 }
 
 bool starts_group(Action action) {
-    constexpr std::array kStarts{Action::ImportMaps,  Action::Save,          Action::ExportRender,
-                                 Action::Quit,        Action::Search,        Action::NextEnvironment,
-                                 Action::NextShading, Action::ToggleLibrary, Action::About};
-    return std::find(kStarts.begin(), kStarts.end(), action) != kStarts.end();
+    constexpr std::array starts{Action::ImportMaps,  Action::Save,          Action::ExportRender,
+                                Action::Quit,        Action::Search,        Action::NextEnvironment,
+                                Action::NextShading, Action::ToggleLibrary, Action::About};
+    return std::find(starts.begin(), starts.end(), action) != starts.end();
 }
 
 void draw_recent(PanelContext& context) {

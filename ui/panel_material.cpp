@@ -43,9 +43,9 @@ bool choose(PanelContext& context, const std::string& name, const std::array<Cho
 }
 
 bool choose_channel(PanelContext& context, const std::string& name, Channel& value, float width) {
-    static constexpr std::array kLetters{"R", "G", "B", "A"};
-    std::array<Option, kLetters.size()> options;
-    for (std::size_t i = 0; i < kLetters.size(); ++i) options[i] = {kLetters[i], kChannels[i].tooltip};
+    static constexpr std::array letters{"R", "G", "B", "A"};
+    std::array<Option, letters.size()> options;
+    for (std::size_t i = 0; i < letters.size(); ++i) options[i] = {letters[i], kChannels[i].tooltip};
     int index = static_cast<int>(value);
     if (!segmented(context, name, options, index, width)) return false;
     value = kChannels[static_cast<std::size_t>(index)].value;
@@ -137,11 +137,11 @@ private:
 };
 
 void draw_invitation(const Rect& rect) {
-    static constexpr std::array kLines{"Drop an", "image", "here"};
+    static constexpr std::array lines{"Drop an", "image", "here"};
     ImGui::PushFont(font_of(Face::Small));
     const float line = ImGui::GetFontSize() + 1.0f;
-    float y = std::round((rect.y0 + rect.y1 - line * static_cast<float>(kLines.size())) / 2);
-    for (const char* text : kLines) {
+    float y = std::round((rect.y0 + rect.y1 - line * static_cast<float>(lines.size())) / 2);
+    for (const char* text : lines) {
         const float x = std::round((rect.x0 + rect.x1 - ImGui::CalcTextSize(text).x) / 2);
         ImGui::GetWindowDrawList()->AddText({x, y}, color::kFaint, text);
         y += line;
@@ -190,12 +190,12 @@ void draw_map_buttons(PanelContext& context, const MaterialSlot& slot, const Map
 }
 
 std::string facts_of(const MapStatus& map) {
-    static constexpr std::array kChannelNames{"", "grey", "grey+A", "RGB", "RGBA"};
+    static constexpr std::array channel_names{"", "grey", "grey+A", "RGB", "RGBA"};
     if (map.state == MapState::Loading) return "Loading…";
     if (map.width <= 0) return "";
     std::array<char, 96> text{};
     std::snprintf(text.data(), text.size(), "%d × %d  ·  %d-bit %s", map.width, map.height, map.bits,
-                  kChannelNames[static_cast<std::size_t>(std::clamp(map.channels, 0, 4))]);
+                  channel_names[static_cast<std::size_t>(std::clamp(map.channels, 0, 4))]);
     return text.data();
 }
 
@@ -348,13 +348,13 @@ void draw_slot_card(PanelContext& context, const MaterialParam& param, std::stri
 // ---- rows without a map ----
 
 void draw_plain_row(PanelContext& context, const MaterialParam& param) {
-    static constexpr std::array kAxes{"x", "y", "z"};
+    static constexpr std::array axes{"x", "y", "z"};
     const Material defaults;
     const auto now = values_of(param, context.material);
     const auto saved = values_of(param, context.saved_material);
     const auto reset = values_of(param, defaults);
     for (std::size_t c = 0; c < now.size(); ++c) {
-        const std::string name = now.size() > 1 ? name_of(param.key, kAxes[c]) : name_of(param.key);
+        const std::string name = now.size() > 1 ? name_of(param.key, axes[c]) : name_of(param.key);
         const std::string label = now.size() > 1 ? std::string(param.label) + (c == 0 ? " across" : " up")
                                                  : std::string(param.label);
         NumberRow row = number_of(param, name, reset[c], saved[c]);

@@ -8,6 +8,7 @@
 
 #include <imgui.h>
 
+#include <array>
 #include <string>
 
 namespace patina::ui {
@@ -25,67 +26,66 @@ void choice_row(PanelContext& context, RowLabel label, const std::array<Named<T>
         value = table[static_cast<std::size_t>(index)].value;
 }
 
+struct CameraRow {
+    float Camera::*member;
+    NumberRow row;
+};
+constexpr std::array kCameraRows{
+    CameraRow{&Camera::yaw_deg,
+              {.name = "view.yaw",
+               .label = "Around",
+               .tooltip = "Where the camera stands around the object, in degrees from the front.",
+               .min = -180.0f,
+               .max = 180.0f,
+               .hard_min = -180.0f,
+               .hard_max = 180.0f,
+               .format = "%.1f°",
+               .step = 0.1f,
+               .wraps = true}},
+    CameraRow{&Camera::pitch_deg,
+              {.name = "view.pitch",
+               .label = "Above",
+               .tooltip = "How far the camera looks down on the object, in degrees.",
+               .min = -89.9f,
+               .max = 89.9f,
+               .hard_min = -89.9f,
+               .hard_max = 89.9f,
+               .format = "%.1f°",
+               .step = 0.1f}},
+    CameraRow{&Camera::distance,
+              {.name = "view.distance",
+               .label = "Distance",
+               .tooltip = "From the object's centre, in radii of the object.",
+               .min = 1.2f,
+               .max = 20.0f,
+               .hard_min = 0.1f,
+               .hard_max = 100.0f,
+               .format = "%.2f",
+               .logarithmic = true}},
+    CameraRow{&Camera::fov_deg,
+              {.name = "view.fov",
+               .label = "Field of view",
+               .tooltip = "Vertical opening angle: small flattens like a long lens, large exaggerates depth.",
+               .min = 10.0f,
+               .max = 90.0f,
+               .hard_min = 1.0f,
+               .hard_max = 150.0f,
+               .format = "%.1f°",
+               .step = 0.5f}},
+};
+
 void draw_camera(PanelContext& context) {
-    Camera& camera = context.camera;
-    const Camera& home = context.home_camera;
     heading("Camera");
-    number_row(context,
-               {.name = "view.yaw",
-                .label = "Around",
-                .tooltip = "Where the camera stands around the object, in degrees from the front.",
-                .min = -180.0f,
-                .max = 180.0f,
-                .hard_min = -180.0f,
-                .hard_max = 180.0f,
-                .reset = home.yaw_deg,
-                .saved = camera.yaw_deg,
-                .format = "%.1f°",
-                .step = 0.1f,
-                .wraps = true},
-               camera.yaw_deg);
-    number_row(context,
-               {.name = "view.pitch",
-                .label = "Above",
-                .tooltip = "How far the camera looks down on the object, in degrees.",
-                .min = -89.9f,
-                .max = 89.9f,
-                .hard_min = -89.9f,
-                .hard_max = 89.9f,
-                .reset = home.pitch_deg,
-                .saved = camera.pitch_deg,
-                .format = "%.1f°",
-                .step = 0.1f},
-               camera.pitch_deg);
-    number_row(context,
-               {.name = "view.distance",
-                .label = "Distance",
-                .tooltip = "From the object's centre, in radii of the object.",
-                .min = 1.2f,
-                .max = 20.0f,
-                .hard_min = 0.1f,
-                .hard_max = 100.0f,
-                .reset = home.distance,
-                .saved = camera.distance,
-                .format = "%.2f",
-                .logarithmic = true},
-               camera.distance);
-    number_row(
-        context,
-        {.name = "view.fov",
-         .label = "Field of view",
-         .tooltip = "Vertical opening angle: small flattens like a long lens, large exaggerates depth.",
-         .min = 10.0f,
-         .max = 90.0f,
-         .hard_min = 1.0f,
-         .hard_max = 150.0f,
-         .reset = home.fov_deg,
-         .saved = camera.fov_deg,
-         .format = "%.1f°",
-         .step = 0.5f},
-        camera.fov_deg);
+    for (const CameraRow& camera_row : kCameraRows) {
+        NumberRow row = camera_row.row;
+        float& value = context.camera.*camera_row.member;
+        row.reset = context.home_camera.*camera_row.member;
+        row.saved = value;  // moving the camera is no change of the document worth a mark
+        number_row(context, row, value);
+    }
     if (button(context, "view.reset", "Reset the view",
                "Back to the first view; so does a double-click on the picture.",
-               {.width = ImGui::GetContentRegionAvail().x, .enabled = camera != home}))
+               {.width = ImGui::GetContentRegionAvail().x, .enabled = context.camera != context.home_camera}))
         act(context, Action::Home);
 }
 

@@ -77,12 +77,12 @@ bool pick_color(glm::vec3& value) {
     std::array<float, 3> encoded{};
     for (int c = 0; c < 3; ++c) encoded[static_cast<std::size_t>(c)] = linear_to_srgb(value[c]);
     std::array<float, 3> before = encoded;
-    constexpr ImGuiColorEditFlags kFlags = ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoAlpha |
-                                           ImGuiColorEditFlags_DisplayRGB | ImGuiColorEditFlags_DisplayHSV |
-                                           ImGuiColorEditFlags_PickerHueBar |
-                                           ImGuiColorEditFlags_NoSmallPreview | ImGuiColorEditFlags_NoLabel;
+    constexpr ImGuiColorEditFlags flags = ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoAlpha |
+                                          ImGuiColorEditFlags_DisplayRGB | ImGuiColorEditFlags_DisplayHSV |
+                                          ImGuiColorEditFlags_PickerHueBar |
+                                          ImGuiColorEditFlags_NoSmallPreview | ImGuiColorEditFlags_NoLabel;
     ImGui::SetNextItemWidth(px(220));
-    if (!ImGui::ColorPicker3("##picker", encoded.data(), kFlags)) return false;
+    if (!ImGui::ColorPicker3("##picker", encoded.data(), flags)) return false;
     bool changed = false;
     for (int c = 0; c < 3; ++c) {
         const auto i = static_cast<std::size_t>(c);

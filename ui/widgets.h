@@ -2,6 +2,7 @@
 // itself in a tooltip. A name is a path such as "toolbar.mesh"; it is also the widget's identity.
 #pragma once
 
+#include "ui/names.h"
 #include "ui/panel_context.h"
 #include "ui/theme.h"
 
@@ -21,8 +22,8 @@ void record(PanelContext& context, std::string_view name, std::string_view toolt
 /// Likewise, a rectangle that is no item.
 void record_rect(PanelContext& context, std::string_view name, const Rect& rect);
 
-/// Explains the last item after the mouse rested on it for a moment.
-void explain(PanelContext& context, std::string_view text);
+/// Explains the last item after the mouse rested on it for a moment, with a picture where there is one.
+void explain(PanelContext& context, std::string_view text, TextureId picture = 0);
 /// record and explain.
 void finish_item(PanelContext& context, std::string_view name, std::string_view tooltip,
                  float missing_width = 0.0f);
@@ -128,16 +129,5 @@ void draw_thumbnail(const Rect& rect, TextureId texture, const char* placeholder
 
 /// A thin bar that fills from the left; an unknown amount (< 0) is drawn as a dim full bar.
 void progress_bar(float fraction, const ImVec2& size);
-
-/// "12.3 MB"
-std::string bytes_text(std::uint64_t bytes);
-/// The part after the last slash.
-std::string_view file_name_of(std::string_view path);
-/// Does text contain pattern, letter case aside? Every word of pattern has to be found.
-bool matches_search(std::string_view text, std::string_view pattern);
-/// Alphabetical, letter case aside, numbers by their value: "2_rough" before "10_rough".
-bool natural_less(std::string_view a, std::string_view b);
-/// "Split sum" → "split_sum": a name for a recorded option.
-std::string recorded_name(std::string_view base, std::string_view title);
 
 }  // namespace patina::ui

@@ -51,7 +51,7 @@ struct Stage {
         apply_theme(scale);
         unsigned char* pixels = nullptr;
         io.Fonts->GetTexDataAsAlpha8(&pixels, &atlas_width, &atlas_height);
-        io.Fonts->SetTexID(reinterpret_cast<ImTextureID>(kFontTexture));
+        io.Fonts->SetTexID(reinterpret_cast<ImTextureID>(font_texture));
         fill();
         frames(3);
     }
@@ -59,7 +59,7 @@ struct Stage {
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 
-    static constexpr TextureId kFontTexture = 1;
+    static constexpr TextureId font_texture = 1;
     int atlas_width = 0, atlas_height = 0;
 
     void frame() {
@@ -105,8 +105,8 @@ struct Stage {
     // ---- mouse ----
     const RecordedItem& item(std::string_view name) const {
         const RecordedItem* found = recorder.find(name);
-        static const RecordedItem kNone;
-        return found ? *found : kNone;
+        static const RecordedItem none;
+        return found ? *found : none;
     }
     bool has(std::string_view name) const { return recorder.find(name) != nullptr; }
     glm::vec2 centre(std::string_view name) const {
