@@ -152,15 +152,15 @@ private:
         const std::string* schema = find_text("/$schema");
         if (!schema || *schema == kPresetSchema) return;
         known_.erase("/$schema");
-        schema_ = *schema;
         const std::size_t at = schema->find(before);
         const long version =
             at == std::string::npos ? 0 : std::strtol(schema->c_str() + at + before.size(), nullptr, 10);
+        is_patina_ = version >= 1;
         if (version > kPresetVersion)
             note("/$schema", "says version " + std::to_string(version) + ", this program knows version " +
                                  std::to_string(kPresetVersion) +
                                  "; what it does not know is kept but not shown");
-        else if (version < 1)
+        else if (!is_patina_)
             note("/$schema", "is '" + printable(*schema) + "', not that of a Patina material");
     }
 
@@ -232,7 +232,7 @@ private:
     void keep_unknown() {
         const Json unknown = unknown_part(root_, "");
         if (unknown.empty()) return;
-        if (unknown.size() == root_.size() && unknown == root_ && schema_.empty())
+        if (unknown.size() == root_.size() && unknown == root_ && !is_patina_)
             fail("", "has none of the keys of a material preset; it seems to be something else");
         result_.material.unknown_json = in_writing_order(unknown).dump();
     }
@@ -272,7 +272,7 @@ private:
     const std::string& name_;
     Json root_;
     LoadedMaterial result_;
-    std::string schema_;           ///< if it is not this version's
+    bool is_patina_ = false;       ///< by its $schema
     std::set<std::string> known_;  ///< pointers that were asked for
     std::set<std::string> noted_;  ///< repeated keys already spoken of
     std::size_t dropped_notes_ = 0;

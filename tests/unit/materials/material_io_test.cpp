@@ -197,7 +197,8 @@ TEST(MaterialIo, a_newer_version_is_noted_and_its_name_kept) {
     EXPECT_TRUE(mentions(notes, "m.json:1:13: /$schema says version 2, this program knows version 1"));
     EXPECT_NE(to_json(material).find("https://x/patina-material-2.schema.json"), std::string::npos);
     EXPECT_NE(to_json(material).find("sheen"), std::string::npos);
-    EXPECT_TRUE(mentions(parsed(R"({"$schema": "other.json"})").notes, "not that of a Patina material"));
+    EXPECT_TRUE(
+        mentions(parsed(R"({"$schema": "other.json", "name": "x"})").notes, "not that of a Patina material"));
     EXPECT_TRUE(parsed(R"({"$schema": "patina-material-1.schema.json"})").notes.empty());
     EXPECT_TRUE(parsed(R"({"$schema": "../schemas/patina-material-1.schema.json"})").notes.empty());
 }
@@ -249,6 +250,8 @@ TEST(MaterialIo, wrong_types_are_errors_that_name_file_place_and_what_is_wanted)
         {R"({"uv": 3})", "/uv is a number; it must be an object."},
         {R"({"$schema": 1})", "/$schema is a number; it must be text."},
         {R"({"asset": {"version": "2.0"}, "meshes": []})", "has none of the keys of a material preset"},
+        {R"({"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "x"})",
+         "has none of the keys of a material preset"},
         {"{\n\n  \"uv\": {\"scale\": [1, \"a\nb\"]}}", "m.json:3:25: not valid JSON"},
     };
     for (const auto& [text, says] : cases) {
