@@ -22,9 +22,8 @@ namespace fs = std::filesystem;
 
 /// A C stream, the one kind that can be flushed to the disk on every system, and its end.
 struct CloseStream {
-    void operator()(std::FILE* stream) const {
-        std::fclose(stream);
-    }  // NOLINT(cppcoreguidelines-owning-memory)
+    // NOLINTNEXTLINE(cppcoreguidelines-owning-memory)
+    void operator()(std::FILE* stream) const { std::fclose(stream); }
 };
 using Stream = std::unique_ptr<std::FILE, CloseStream>;
 
@@ -83,8 +82,9 @@ fs::path temporary_name(const fs::path& file) {
 void write_all(const fs::path& file, const fs::path& temporary, std::span<const std::byte> bytes) {
     const Stream stream = open_stream(temporary, "wbx");
     if (!stream) fail(file, "cannot be written (" + reason(errno) + "); choose another folder");
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stream.get()) == bytes.size() &&
-                         flush_to_disk(stream.get());
+    const bool written =
+        (bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), stream.get()) == bytes.size()) &&
+        flush_to_disk(stream.get());
     if (!written)
         fail(file, "could not be written completely (" + reason(errno) +
                        "); free some space or choose another folder");
@@ -109,7 +109,7 @@ std::vector<std::byte> read_file(const fs::path& file, std::uint64_t max_bytes) 
     const Stream stream = open_stream(file, "rb");
     if (!stream) fail(file, "cannot be opened (" + reason(errno) + "); check its permissions");
     std::vector<std::byte> bytes(static_cast<std::size_t>(std::min(size, max_bytes)));
-    bytes.resize(std::fread(bytes.data(), 1, bytes.size(), stream.get()));
+    if (!bytes.empty()) bytes.resize(std::fread(bytes.data(), 1, bytes.size(), stream.get()));
     if (std::ferror(stream.get()))
         fail(file, "could not be read to its end (" + reason(errno) + "); check the disk");
     return bytes;

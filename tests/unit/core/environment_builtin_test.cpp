@@ -174,7 +174,7 @@ std::string label_picture(const Environment& environment, glm::vec3 forward, glm
 }
 
 TEST(BuiltinEnvironments, test_labels_read_upright_and_unmirrored_from_inside) {
-    const Environment environment = builtin("test").make(2048);
+    const Environment environment = builtin("test").make(1024);
     const std::string plus_z = label_picture(environment, {0, 0, 1}, {0, 1, 0});
     const std::string minus_z = label_picture(environment, {0, 0, -1}, {0, 1, 0});
     // Z, unlike its mirror image, has its stroke from the lower left to the upper right.
@@ -209,7 +209,7 @@ TEST(BuiltinEnvironments, test_labels_read_upright_and_unmirrored_from_inside) {
 // --- round lights ---
 
 TEST(Disc, has_exact_energy_at_every_width_and_place) {
-    for (const int width : {2, 7, 64, 1024, 4096})
+    for (const int width : {2, 7, 64, 1024})
         for (const glm::vec3 direction :
              {glm::vec3(0, 1, 0), glm::vec3(0, -1, 0), glm::vec3(0, 0, 1), glm::vec3(0, 0, -1),
               glm::vec3(0.3f, 0.9f, -0.1f), glm::vec3(-0.001f, 1.0f, 0.001f)})

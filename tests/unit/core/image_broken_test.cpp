@@ -47,9 +47,9 @@ Bytes whole_file(const TempFolder& folder, const Kind& kind) {
     EXPECT_TRUE(output->close());
     Bytes bytes = read_file(file);
     if (std::string_view(kind.extension) == ".tga") {
-        constexpr std::size_t kFooter = 26;  // begins with the offset of the extension area
+        constexpr std::size_t footer_size = 26;  // begins with the offset of the extension area
         std::uint32_t extension_area = 0;
-        std::memcpy(&extension_area, bytes.data() + bytes.size() - kFooter, sizeof extension_area);
+        std::memcpy(&extension_area, bytes.data() + bytes.size() - footer_size, sizeof extension_area);
         EXPECT_LT(extension_area, bytes.size());
         bytes.resize(extension_area);
     }
