@@ -20,6 +20,15 @@ const BuiltinEnvironment& builtin(std::string_view id) {
     return *std::find_if(all.begin(), all.end(), [&](const BuiltinEnvironment& row) { return row.id == id; });
 }
 
+/// Made once for all tests.
+const Environment& made(std::string_view id, int width = kBuiltinEnvironmentWidth) {
+    static std::map<std::pair<std::string_view, int>, Environment> all;
+    const auto [at, missing] = all.try_emplace({builtin(id).id, width});
+    if (missing) at->second = builtin(id).make(width);
+    return at->second;
+}
+constexpr int kSmall = 37;
+
 glm::vec3 seen(const Environment& environment, glm::vec3 direction) {
     const glm::vec2 uv = direction_to_equirect(glm::normalize(direction));
     const int x =
@@ -52,8 +61,8 @@ TEST(BuiltinEnvironments, come_in_the_order_shown_with_a_sentence_each) {
 
 TEST(BuiltinEnvironments, are_finite_positive_of_the_promised_size_and_carry_their_hash) {
     for (const BuiltinEnvironment& row : builtin_environments())
-        for (const int width : {37, 1}) {
-            const Environment environment = row.make(width);
+        for (const int width : {kSmall, 1}) {
+            const Environment& environment = made(row.id, width);
             EXPECT_EQ(environment.id, row.id);
             EXPECT_EQ(environment.title, row.title);
             EXPECT_EQ(environment.width, std::max(width, 2));
@@ -73,24 +82,24 @@ TEST(BuiltinEnvironments, are_finite_positive_of_the_promised_size_and_carry_the
 TEST(BuiltinEnvironments, are_the_same_on_every_run_and_differ_from_one_another) {
     std::map<std::uint64_t, std::string_view> hashes;
     for (const BuiltinEnvironment& row : builtin_environments()) {
-        const Environment environment = row.make(64);
-        EXPECT_EQ(environment.content_hash, row.make(64).content_hash);
+        const Environment& environment = made(row.id, kSmall);
+        EXPECT_EQ(environment.content_hash, row.make(kSmall).content_hash);
         EXPECT_TRUE(hashes.emplace(environment.content_hash, row.id).second) << row.id;
     }
 }
 
 void expect_same_energy(const std::vector<int>& widths) {
     for (const BuiltinEnvironment& row : builtin_environments()) {
-        const glm::dvec3 reference = total_energy(row.make(kBuiltinEnvironmentWidth));
+        const glm::dvec3 reference = total_energy(made(row.id));
         for (const int width : widths) {
-            const glm::dvec3 energy = total_energy(row.make(width));
+            const glm::dvec3 energy = total_energy(made(row.id, width));
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(energy[c] / reference[c], 1.0, 0.005) << row.id << " " << width;
         }
     }
 }
 
-TEST(BuiltinEnvironments, hold_the_same_energy_when_small) { expect_same_energy({200}); }
+TEST(BuiltinEnvironments, hold_the_same_energy_when_small) { expect_same_energy({kSmall}); }
 
 TEST(SlowBuiltinEnvironments, hold_the_same_energy_at_every_width) {
     expect_same_energy({64, 333, 512, 699, 700, 1500, 3000});
@@ -98,7 +107,7 @@ TEST(SlowBuiltinEnvironments, hold_the_same_energy_at_every_width) {
 
 TEST(BuiltinEnvironments, are_exposed_for_0_ev) {
     for (const BuiltinEnvironment& row : builtin_environments()) {
-        const float brightness = mean(row.make(700));
+        const float brightness = mean(made(row.id));
         EXPECT_GT(brightness, 0.3f) << row.id;
         EXPECT_LT(brightness, 1.01f) << row.id;
     }
@@ -106,7 +115,7 @@ TEST(BuiltinEnvironments, are_exposed_for_0_ev) {
 
 TEST(BuiltinEnvironments, dynamic_range_is_what_each_is_for) {
     const auto range = [](std::string_view id) {
-        const Environment environment = builtin(id).make(kBuiltinEnvironmentWidth);
+        const Environment& environment = made(id);
         return brightest(environment) / mean(environment);
     };
     EXPECT_GT(range("studio"), 100.0f);
@@ -118,11 +127,11 @@ TEST(BuiltinEnvironments, dynamic_range_is_what_each_is_for) {
 }
 
 TEST(BuiltinEnvironments, furnace_is_one_everywhere) {
-    for (const glm::vec3& texel : builtin("furnace").make(96).radiance) EXPECT_EQ(texel, glm::vec3(1.0f));
+    for (const glm::vec3& texel : made("furnace").radiance) EXPECT_EQ(texel, glm::vec3(1.0f));
 }
 
 TEST(BuiltinEnvironments, overcast_is_three_times_brighter_above_than_at_the_horizon) {
-    const Environment environment = builtin("overcast").make(720);
+    const Environment& environment = made("overcast");
     const float above = seen(environment, {0.0f, 1.0f, 0.0f}).y;
     EXPECT_NEAR(seen(environment, {1.0f, 0.002f, 0.0f}).y / above, 1.0f / 3.0f, 0.01f);
     EXPECT_NEAR(seen(environment, {0.0f, 0.5f, 0.8660254f}).y / above, 2.0f / 3.0f, 0.01f);
@@ -130,7 +139,7 @@ TEST(BuiltinEnvironments, overcast_is_three_times_brighter_above_than_at_the_hor
 }
 
 TEST(BuiltinEnvironments, night_lamps_have_different_colours) {
-    const Environment environment = builtin("night").make(kBuiltinEnvironmentWidth);
+    const Environment& environment = made("night");
     const glm::vec3 red = seen(environment, {5.0f, 0.3f, -1.3f});
     const glm::vec3 cyan = seen(environment, {3.6f, 1.2f, -3.4f});
     const glm::vec3 sodium = seen(environment, {-4.2f, 3.0f, -4.4f});
@@ -143,7 +152,7 @@ TEST(BuiltinEnvironments, night_lamps_have_different_colours) {
 // --- the labelled directions ---
 
 TEST(BuiltinEnvironments, test_directions_have_their_colours) {
-    const Environment environment = builtin("test").make(1024);
+    const Environment& environment = made("test");
     // Beside the grid lines, outside the plates.
     const auto at = [&](glm::vec3 axis, glm::vec3 aside) { return seen(environment, axis + 0.72f * aside); };
     const glm::vec3 tilt(0.05f, 0.06f, 0.07f);
@@ -174,7 +183,7 @@ std::string label_picture(const Environment& environment, glm::vec3 forward, glm
 }
 
 TEST(BuiltinEnvironments, test_labels_read_upright_and_unmirrored_from_inside) {
-    const Environment environment = builtin("test").make(1024);
+    const Environment& environment = made("test");
     const std::string plus_z = label_picture(environment, {0, 0, 1}, {0, 1, 0});
     const std::string minus_z = label_picture(environment, {0, 0, -1}, {0, 1, 0});
     // Z, unlike its mirror image, has its stroke from the lower left to the upper right.
@@ -209,7 +218,7 @@ TEST(BuiltinEnvironments, test_labels_read_upright_and_unmirrored_from_inside) {
 // --- round lights ---
 
 TEST(Disc, has_exact_energy_at_every_width_and_place) {
-    for (const int width : {2, 7, 64, 1024})
+    for (const int width : {2, 7, 64, 1000})
         for (const glm::vec3 direction :
              {glm::vec3(0, 1, 0), glm::vec3(0, -1, 0), glm::vec3(0, 0, 1), glm::vec3(0, 0, -1),
               glm::vec3(0.3f, 0.9f, -0.1f), glm::vec3(-0.001f, 1.0f, 0.001f)})

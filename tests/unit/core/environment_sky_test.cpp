@@ -94,16 +94,16 @@ double sun_energy(const Environment& environment) {
 }
 
 TEST(Sky, sun_holds_the_same_energy_at_every_width) {
-    const double reference = sun_energy(make_sky(2048));
-    for (const int width : {256, 333, 1024})
+    const double reference = sun_energy(make_sky(1024));
+    for (const int width : {256, 333})
         EXPECT_NEAR(sun_energy(make_sky(width)) / reference, 1.0, 0.005) << width;
 }
 
 TEST(Sky, sun_outshines_the_sky_ten_thousand_times) {
-    const Environment environment = make_sky(2048);
+    const Environment environment = make_sky(1024);
     float sun = 0.0f;
     for (const glm::vec3& texel : environment.radiance) sun = std::max(sun, texel.y);
-    const float sky_away_from_sun = environment.radiance[2048 * 200 + 1300].y;
+    const float sky_away_from_sun = environment.radiance[1024 * 100 + 650].y;
     EXPECT_GT(sun, 1e4f * sky_away_from_sun);
 }
 
