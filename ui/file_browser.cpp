@@ -220,6 +220,12 @@ void draw_entries(PanelContext& context, const std::vector<const BrowserEntry*>&
         draw_entry(context, *entry, act_on_it);
         if (act_on_it) opened = entry;
     }
+    if (entries.empty() && browser.error.empty()) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        const bool filtered = !browser.search.empty() || !browser.entries.empty();
+        text_line(context, filtered ? "Nothing here that fits." : "This folder is empty.", color::kFaint);
+    }
     ImGui::EndTable();
     if (!opened) return;
     if (opened->is_folder)

@@ -84,7 +84,11 @@ void draw_bright_color(PanelContext& context, const MaterialParam& param, glm::v
     if (strength > 0.0f) memory = value / strength;
     glm::vec3 tint = memory;
     const std::string name = name_of(param.key);
-    const ColorRow color{.name = name, .tooltip = param.tooltip, .reset = glm::vec3{1.0f}, .saved = tint};
+    const ColorRow color{.name = name,
+                         .tooltip = param.tooltip,
+                         .reset = glm::vec3{1.0f},
+                         .saved = tint,
+                         .faded = strength == 0.0f};
     if (color_value(context, color, tint, line.width)) {
         const float peak = strength_of(tint);
         memory = peak > 0.0f ? tint / peak : glm::vec3{1.0f};

@@ -22,7 +22,7 @@ enum class Action {
 /// io.KeysDown's indices, which are GLFW's: letters and digits are their upper-case ASCII, the others as here.
 enum Key : int {
     KeyNone = 0,
-    KeyComma = 44, KeyMinus = 45, KeyPeriod = 46, KeyEqual = 61, KeyLeftBracket = 91, KeyRightBracket = 93,
+    KeyComma = 44, KeyMinus = 45, KeyPeriod = 46, KeyEqual = 61, KeyL = 76, KeyLeftBracket = 91, KeyRightBracket = 93,
     KeyEscape = 256, KeyEnter = 257, KeyTab = 258, KeyBackspace = 259, KeyDelete = 261,
     KeyRight = 262, KeyLeft = 263, KeyDown = 264, KeyUp = 265, KeyPageUp = 266, KeyPageDown = 267, KeyHome = 268,
     KeyEnd = 269, KeyF1 = 290, KeyPadSubtract = 333, KeyPadAdd = 334, KeyPadEnter = 335

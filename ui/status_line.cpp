@@ -67,7 +67,8 @@ void draw_right(PanelContext& context, const Rect& rect, float height) {
     const auto& log = context.status.log;
     for (std::size_t i = std::min<std::size_t>(context.ui.log_seen, log.size()); i < log.size(); ++i)
         problems += log[i].severity != Severity::Info;
-    const std::string frames = std::to_string(context.status.frames_rendered) + " frames";
+    const std::string frames = std::to_string(context.status.frames_rendered) +
+                               (context.status.frames_rendered == 1 ? " frame" : " frames");
     float x = rect.x1 - px(12) - ImGui::CalcTextSize(frames.c_str()).x;
     ImGui::SetCursorScreenPos({x, rect.y0});
     put_text(frames, color::kFaint, height);

@@ -28,7 +28,8 @@ inline constexpr ImU32 kAccentDim = IM_COL32(47, 106, 92, 255);
 inline constexpr ImU32 kAccentText = IM_COL32(12, 26, 22, 255);  ///< on kAccent
 inline constexpr ImU32 kWarning = IM_COL32(222, 170, 84, 255);
 inline constexpr ImU32 kError = IM_COL32(232, 112, 100, 255);
-inline constexpr ImU32 kShade = IM_COL32(0, 0, 0, 120);  ///< over pictures, under text
+inline constexpr ImU32 kVeil = IM_COL32(46, 46, 47, 190);  ///< over what has no effect
+inline constexpr ImU32 kShade = IM_COL32(0, 0, 0, 120);    ///< over pictures, under text
 }  // namespace color
 
 /// In the order they are added to the atlas.

@@ -102,6 +102,7 @@ bool swatch(PanelContext& context, const ColorRow& row, glm::vec3& value, float 
     };
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->AddRectFilled(min, max, IM_COL32(byte(value.x), byte(value.y), byte(value.z), 255), px(4));
+    if (row.faded) draw->AddRectFilled(min, max, color::kVeil, px(4));
     draw->AddRect(min, max, ImGui::IsItemHovered() ? color::kMuted : color::kOutline, px(4));
     std::array<char, 96> linear{};
     std::snprintf(linear.data(), linear.size(), "\nLinear %.3f, %.3f, %.3f", static_cast<double>(value.x),
@@ -140,7 +141,7 @@ bool code_field(PanelContext& context, const ColorRow& row, glm::vec3& value, fl
 
 }  // namespace
 
-float label_width() { return px(98); }
+float label_width() { return px(106); }
 
 LabelAction row_label(PanelContext& context, const RowLabel& label) {
     const float height = ImGui::GetFrameHeight(), dot = px(10);
@@ -270,7 +271,7 @@ std::optional<glm::vec3> color_of_code(std::string_view code) {
     glm::vec3 linear{0.0f};
     for (int c = 0; c < 3; ++c) {
         int byte = 0;
-        for (const char digit : code.substr(static_cast<std::size_t>(2 * c), 2)) {
+        for (const char digit : code.substr(2 * static_cast<std::size_t>(c), 2)) {
             const bool number = digit >= '0' && digit <= '9';
             const char letter = static_cast<char>(digit & ~0x20);
             if (!number && (letter < 'A' || letter > 'F')) return std::nullopt;

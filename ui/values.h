@@ -63,6 +63,7 @@ struct ColorRow {
     std::string_view tooltip;
     glm::vec3 reset{1.0f};
     glm::vec3 saved{1.0f};
+    bool faded = false;  ///< the colour has no effect at present
 };
 /// value is scene-linear; shown and edited sRGB-encoded. Channels that were not edited keep their exact
 /// value.

@@ -9,6 +9,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -21,7 +22,7 @@ void handle_mouse(PanelContext& context, const Rect& rect) {
     const bool active = ImGui::IsItemActive();
     if (ImGui::IsItemActivated()) {
         ui.viewport_drag = true;
-        ui.rotating_light = io.MouseDown[ImGuiMouseButton_Right] || io.KeyCtrl || io.KeysDown['L'];
+        ui.rotating_light = io.MouseDown[ImGuiMouseButton_Right] || io.KeyCtrl || io.KeysDown[KeyL];
     }
     if (!active) ui.viewport_drag = ui.rotating_light = false;
     if (ui.viewport_drag && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f)) {
@@ -42,7 +43,7 @@ void draw_picture(const PanelContext& context, const Rect& rect) {
     ImDrawList* draw = ImGui::GetWindowDrawList();
     if (context.viewport.texture) {
         const float v0 = context.viewport.bottom_up ? 1.0f : 0.0f;
-        draw->AddImage(reinterpret_cast<ImTextureID>(context.viewport.texture), {rect.x0, rect.y0},
+        draw->AddImage(std::bit_cast<ImTextureID>(context.viewport.texture), {rect.x0, rect.y0},
                        {rect.x1, rect.y1}, {0.0f, v0}, {1.0f, 1.0f - v0});
         return;
     }

@@ -6,6 +6,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace patina::ui {
@@ -90,7 +91,7 @@ void explain(PanelContext& context, std::string_view text, TextureId picture) {
     }
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(10), px(7)));
     ImGui::BeginTooltip();
-    if (picture) ImGui::Image(reinterpret_cast<ImTextureID>(picture), {px(220), px(220)});
+    if (picture) ImGui::Image(std::bit_cast<ImTextureID>(picture), {px(220), px(220)});
     ImGui::PushTextWrapPos(px(300));
     ImGui::TextUnformatted(text.data(), text.data() + text.size());
     ImGui::PopTextWrapPos();
@@ -377,8 +378,8 @@ void draw_thumbnail(const Rect& rect, TextureId texture, const char* placeholder
     ImDrawList* draw = ImGui::GetWindowDrawList();
     const ImVec2 min{rect.x0, rect.y0}, max{rect.x1, rect.y1};
     if (texture) {
-        draw->AddImageRounded(reinterpret_cast<ImTextureID>(texture), min, max, {0, 0}, {1, 1},
-                              IM_COL32_WHITE, px(4));
+        draw->AddImageRounded(std::bit_cast<ImTextureID>(texture), min, max, {0, 0}, {1, 1}, IM_COL32_WHITE,
+                              px(4));
     } else {
         draw->AddRectFilled(min, max, color::kField, px(4));
         if (placeholder) {
