@@ -56,7 +56,9 @@ const vec2 kGoldenTurn = vec2(-0.7373688, 0.6754903);   // cos and sin of the go
 // Without any lobe that sharp among the pixels shaded together the loop is not entered; software renderers execute both
 // sides of an `if`, so a loop of no turns is what spares them the work.
 vec3 core_light(vec3 R, float alpha, float pixel_solid_angle) {
-    int count = alpha < level_layout.w ? kCoreSamples : 0;
+    // Below roughness 0.01 the lobe is narrower than any panorama's texel: its middle says it all.
+    int count = alpha < 1e-4 ? 1 : alpha < level_layout.w ? kCoreSamples : 0;
+    float middle = count == 1 ? 0.0 : 0.5;
     float alpha2 = max(alpha * alpha, 1e-14);
     float alpha1_2 = level_layout.w * level_layout.w;
     // Azimuths count from the panorama's own east, so that the pattern turns smoothly everywhere but at its poles.
@@ -67,9 +69,9 @@ vec3 core_light(vec3 R, float alpha, float pixel_solid_angle) {
     float weights = 0.0;
     vec2 azimuth = vec2(1.0, 0.0);
     for (int i = 0; i < count; ++i) {
-        float u = (float(i) + 0.5) / float(kCoreSamples);
+        float u = (float(i) + middle) / float(count);
         float t = core_tangent2(u / (1.0 - u), alpha2, alpha1_2);
-        float share = 1.0 / (float(kCoreSamples) * max(core_density(t, alpha2, alpha1_2), 1e-12));
+        float share = 1.0 / (float(count) * max(core_density(t, alpha2, alpha1_2), 1e-12));
         // l = 2 (n·h) h − n with n = R: cos θ_l = (1 − t)/(1 + t), sin θ_l = 2 √t/(1 + t).
         float cosine = (1.0 - t) / (1.0 + t);
         float sine = 2.0 * sqrt(t) / (1.0 + t);
