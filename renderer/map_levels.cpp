@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace patina {
 
@@ -45,8 +46,8 @@ private:
 };
 
 const SrgbEncoder& srgb_encoder() {
-    static const SrgbEncoder kEncoder;
-    return kEncoder;
+    static const SrgbEncoder encoder;
+    return encoder;
 }
 
 /// Decoded value of each byte: as a number and as sRGB light.
@@ -55,7 +56,7 @@ struct ByteTables {
     std::array<float, 256> light{};
 };
 const ByteTables& byte_tables() {
-    static const ByteTables kTables = [] {
+    static const ByteTables shared = [] {
         ByteTables tables;
         for (int i = 0; i < 256; ++i) {
             tables.number[i] = float(i) / 255.0f;
@@ -63,7 +64,14 @@ const ByteTables& byte_tables() {
         }
         return tables;
     }();
-    return kTables;
+    return shared;
+}
+
+/// 0…1 to the nearest code.
+template <class T>
+T rounded(float x) {
+    const float code = x * float(std::numeric_limits<T>::max()) + 0.5f;
+    return T(code);
 }
 
 float finite(float x) { return std::isfinite(x) ? std::clamp(x, -kLargestHalf, kLargestHalf) : 0.0f; }
@@ -121,10 +129,10 @@ void encode_row(std::vector<float> row, Meaning meaning, Image& image, int y) {
         const SrgbEncoder& encode = srgb_encoder();
         const bool light = meaning == Meaning::SrgbLight;
         for (int i = 0; i < count; ++i)
-            out[i] = light && i % 4 != 3 ? encode(row[i]) : std::uint8_t(row[i] * 255.0f + 0.5f);
+            out[i] = light && i % 4 != 3 ? encode(row[i]) : rounded<std::uint8_t>(row[i]);
     } else if (image.type == PixelType::U16) {
         auto* out = row_of<std::uint16_t>(image, y);
-        for (int i = 0; i < count; ++i) out[i] = std::uint16_t(row[i] * 65535.0f + 0.5f);
+        for (int i = 0; i < count; ++i) out[i] = rounded<std::uint16_t>(row[i]);
     } else {
         std::memcpy(row_of<float>(image, y), row.data(), std::size_t(count) * sizeof(float));
     }
@@ -279,8 +287,7 @@ void make_finite(Image& image) {
 /// There is no 16-bit sRGB texture format; 16 linear bits are fine enough to hold the decoded light.
 void decode_16_bits(Image& image) {
     std::vector<std::uint16_t> light(65536);
-    for (int i = 0; i < 65536; ++i)
-        light[i] = std::uint16_t(srgb_to_linear(float(i) / 65535.0f) * 65535.0f + 0.5f);
+    for (int i = 0; i < 65536; ++i) light[i] = rounded<std::uint16_t>(srgb_to_linear(float(i) / 65535.0f));
     auto* values = row_of<std::uint16_t>(image, 0);
     const std::size_t count = image.bytes.size() / sizeof(std::uint16_t);
     const bool has_alpha = image.channels % 2 == 0;
@@ -322,13 +329,13 @@ MapKind map_kind(MapSlot slot) {
 }
 
 Image make_placeholder_map() {
-    constexpr int kSize = 64;
-    constexpr int kCell = 8;
-    Image image = make_image(kSize, kSize, 3, PixelType::U8);
+    constexpr int size = 64;
+    constexpr int cell = 8;
+    Image image = make_image(size, size, 3, PixelType::U8);
     auto* out = row_of<std::uint8_t>(image, 0);
-    for (int y = 0; y < kSize; ++y) {
-        for (int x = 0; x < kSize; ++x, out += 3) {
-            const bool lit = (x / kCell + y / kCell) % 2 == 0;
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x, out += 3) {
+            const bool lit = (x / cell + y / cell) % 2 == 0;
             out[0] = out[2] = lit ? 255 : 0;
             out[1] = 0;
         }

@@ -54,6 +54,8 @@ class MapUpload {
 public:
     explicit MapUpload(MapLevels levels);
     ~MapUpload();
+    MapUpload(const MapUpload&) = delete;
+    MapUpload& operator=(const MapUpload&) = delete;
     MapUpload(MapUpload&&) noexcept;
     MapUpload& operator=(MapUpload&&) noexcept;
 

@@ -90,14 +90,14 @@ std::uint64_t edge_term(std::uint32_t from, std::uint32_t to) {
 void attribute(GLuint index, GLint components, std::size_t offset) {
     glEnableVertexAttribArray(index);
     glVertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, sizeof(Vertex),
-                          reinterpret_cast<const void*>(offset));
+                          reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr)
 }
 
 }  // namespace
 
 bool is_closed(const std::vector<Vertex>& vertices, const std::vector<std::uint32_t>& indices) {
-    constexpr std::size_t kMostIndices = 600'000;
-    if (indices.size() > kMostIndices) return false;
+    constexpr std::size_t most_indices = 600'000;
+    if (indices.size() > most_indices) return false;
     const auto ids = position_ids(vertices);
     std::vector<std::uint32_t> parent(vertices.size());
     std::iota(parent.begin(), parent.end(), 0u);
@@ -137,10 +137,10 @@ GpuMesh make_mesh_buffers(const Mesh& mesh) {
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, result.indices.name());
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices.size() * sizeof(indices[0])), indices.data(),
                  GL_STATIC_DRAW);
-    attribute(kPosition, 3, offsetof(Vertex, position));
-    attribute(kNormal, 3, offsetof(Vertex, normal));
-    attribute(kUv, 2, offsetof(Vertex, uv));
-    attribute(kTangent, 4, offsetof(Vertex, tangent));
+    attribute(Position, 3, offsetof(Vertex, position));
+    attribute(Normal, 3, offsetof(Vertex, normal));
+    attribute(Uv, 2, offsetof(Vertex, uv));
+    attribute(Tangent, 4, offsetof(Vertex, tangent));
     glBindVertexArray(GLuint(array));
     glBindBuffer(GL_ARRAY_BUFFER, GLuint(buffer));
     check_memory("the mesh");

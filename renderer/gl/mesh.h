@@ -18,7 +18,7 @@ struct GpuMesh {
 namespace gl {
 
 /// Vertex attributes, by name in the shaders.
-enum Attribute : GLuint { kPosition, kNormal, kUv, kTangent };
+enum Attribute : GLuint { Position, Normal, Uv, Tangent };
 
 /// Numbers that are not finite become 0; tangents that were not computed become 0, which the shader
 /// recognises. Triangles are wound to agree with their normals: the front is the side the normals are on.

@@ -107,7 +107,7 @@ void compile(const Stage& stage, const ShaderText& shader, std::span<const std::
 }
 
 void bind_interface(GLuint program) {
-    static constexpr std::pair<const char*, GLuint> kSamplers[] = {
+    static constexpr std::pair<const char*, GLuint> samplers[] = {
         {"panorama_map", kPanoramaUnit},     {"level_maps", kLevelsUnit},
         {"irradiance_map", kIrradianceUnit}, {"brdf_table", kBrdfUnit},
         {"albedo_map", kFirstMapUnit + 0},   {"roughness_map", kFirstMapUnit + 1},
@@ -118,14 +118,14 @@ void bind_interface(GLuint program) {
     GLint previous = 0;
     glGetIntegerv(GL_CURRENT_PROGRAM, &previous);
     glUseProgram(program);
-    for (const auto& [name, unit] : kSamplers) {
+    for (const auto& [name, unit] : samplers) {
         const GLint location = glGetUniformLocation(program, name);
         if (location >= 0) glUniform1i(location, GLint(unit));
     }
     glUseProgram(GLuint(previous));
-    static constexpr std::pair<const char*, GLuint> kBlocks[] = {{"FrameBlock", kFrameSlot},
-                                                                 {"MaterialBlock", kMaterialSlot}};
-    for (const auto& [name, slot] : kBlocks) {
+    static constexpr std::pair<const char*, GLuint> uniform_blocks[] = {{"FrameBlock", kFrameSlot},
+                                                                        {"MaterialBlock", kMaterialSlot}};
+    for (const auto& [name, slot] : uniform_blocks) {
         const GLuint index = glGetUniformBlockIndex(program, name);
         if (index != GL_INVALID_INDEX) glUniformBlockBinding(program, index, slot);
     }
@@ -149,9 +149,9 @@ Program make_program(const ShaderText& vertex, const ShaderText& fragment,
     Program program = Program::make();
     glAttachShader(program.name(), vertex_stage.name);
     glAttachShader(program.name(), fragment_stage.name);
-    static constexpr const char* kAttributes[] = {"vertex_position", "vertex_normal", "vertex_uv",
-                                                  "vertex_tangent"};
-    for (GLuint i = 0; i < 4; ++i) glBindAttribLocation(program.name(), i, kAttributes[i]);
+    static constexpr const char* attributes[] = {"vertex_position", "vertex_normal", "vertex_uv",
+                                                 "vertex_tangent"};
+    for (GLuint i = 0; i < 4; ++i) glBindAttribLocation(program.name(), i, attributes[i]);
     glLinkProgram(program.name());
     GLint done = GL_FALSE;
     glGetProgramiv(program.name(), GL_LINK_STATUS, &done);

@@ -25,15 +25,12 @@ Program make_program(const ShaderText& vertex, const ShaderText& fragment,
                      std::span<const std::string> defines = {});
 
 /// Texture units, by sampler name in the shaders.
-enum Unit : GLuint {
-    kPanoramaUnit,
-    kLevelsUnit,
-    kIrradianceUnit,
-    kBrdfUnit,
-    kFirstMapUnit,  ///< six of them, in MapSlot's order
-    kUnits = kFirstMapUnit + 6,
-    kPictureUnit = kPanoramaUnit,  ///< what the display pass reads
-};
+inline constexpr GLuint kPanoramaUnit = 0;
+inline constexpr GLuint kLevelsUnit = 1;
+inline constexpr GLuint kIrradianceUnit = 2;
+inline constexpr GLuint kBrdfUnit = 3;
+inline constexpr GLuint kFirstMapUnit = 4;  ///< six of them, in MapSlot's order
+inline constexpr GLuint kPictureUnit = 0;   ///< what the display pass reads
 inline constexpr GLuint kFrameSlot = 0;     ///< uniform buffer binding of FrameBlock
 inline constexpr GLuint kMaterialSlot = 1;  ///< and of MaterialBlock
 

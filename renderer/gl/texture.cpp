@@ -16,20 +16,20 @@ struct Format {
 };
 
 Format format_of(const Image& image, bool srgb) {
-    static constexpr GLenum kExternal[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
-    static constexpr GLenum kU8[] = {GL_R8, GL_RG8, GL_RGB8, GL_RGBA8};
-    static constexpr GLenum kU16[] = {GL_R16, GL_RG16, GL_RGB16, GL_RGBA16};
-    static constexpr GLenum kF32[] = {GL_R16F, GL_RG16F, GL_RGB16F, GL_RGBA16F};
+    static constexpr GLenum external[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
+    static constexpr GLenum bytes[] = {GL_R8, GL_RG8, GL_RGB8, GL_RGBA8};
+    static constexpr GLenum shorts[] = {GL_R16, GL_RG16, GL_RGB16, GL_RGBA16};
+    static constexpr GLenum floats[] = {GL_R16F, GL_RG16F, GL_RGB16F, GL_RGBA16F};
     const int i = image.channels - 1;
     switch (image.type) {
         case PixelType::U8:
             if (srgb)
-                return {i == 3 ? GLenum(GL_SRGB8_ALPHA8) : GLenum(GL_SRGB8), kExternal[i], GL_UNSIGNED_BYTE};
-            return {kU8[i], kExternal[i], GL_UNSIGNED_BYTE};
+                return {i == 3 ? GLenum(GL_SRGB8_ALPHA8) : GLenum(GL_SRGB8), external[i], GL_UNSIGNED_BYTE};
+            return {bytes[i], external[i], GL_UNSIGNED_BYTE};
         case PixelType::U16:
-            return {kU16[i], kExternal[i], GL_UNSIGNED_SHORT};
+            return {shorts[i], external[i], GL_UNSIGNED_SHORT};
         default:
-            return {kF32[i], kExternal[i], GL_FLOAT};
+            return {floats[i], external[i], GL_FLOAT};
     }
 }
 
