@@ -35,5 +35,7 @@ std::vector<double> interleaved_medians_ms(const std::vector<std::function<void(
 nlohmann::ordered_json bench_frame(const BenchContext& context);
 /// Cost of light: decoding, baking, reading it back from the disk cache.
 nlohmann::ordered_json bench_light(const BenchContext& context);
+/// Prefiltering: run time against error, method by method.
+nlohmann::ordered_json bench_ibl(const BenchContext& context);
 
 }  // namespace patina

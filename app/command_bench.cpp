@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::array kBenchmarks{
     Benchmark{"light", "decoding, baking and reading back environments", bench_light},
+    Benchmark{"ibl", "prefiltering: run time against error, method by method", bench_ibl},
     Benchmark{"frame", "one frame by shading mode, features and size", bench_frame},
 };
 

@@ -17,16 +17,18 @@ namespace {
 constexpr int kLevelCount = 16;
 constexpr float kStandardSharpest = 0.0999f;  ///< smoother levels need no more than the standard band
 constexpr int kStandardBand = 600;
+constexpr int kStrongBand = 800;  ///< where a light of kStrongLight times the mean reaches every degree
+constexpr double kStrongLight = 5e4;
 constexpr float kTransformSharpest = 0.0599f;  ///< the transform's limit
 constexpr int kSharpBand = 1000;
-constexpr double kTruncation = 2e-4;  ///< relative rms of what a level leaves out
+constexpr double kTruncation = 7e-4;  ///< relative rms of what a level leaves out
 constexpr int kSharpSamples = 1024;
-constexpr double kStrongLight = 500.0;  ///< of the mean radiance: brighter ones are treated by themselves
 
 /// How much of it all is computed.
 struct Plan {
     int band = kStandardBand;
     int largest_face = 256;
+    bool irradiance = true;
 };
 
 /// Smooth levels need fewer texels: bilinear reconstruction then errs less than the levels themselves.
@@ -40,7 +42,7 @@ int face_size(float roughness, int largest) {
 
 bool is_transformed(float roughness) { return roughness >= kTransformSharpest; }
 
-bool is_sharp(float roughness) { return roughness > 0.0f && roughness < kStandardSharpest; }
+bool is_below_standard(float roughness) { return roughness < kStandardSharpest; }
 
 /// Calls progress with shares of the work done; only ever from the thread that bakes.
 struct Progress {
@@ -73,7 +75,8 @@ std::vector<std::vector<double>> make_kernels(const std::vector<float>& roughnes
     control.parallel_for(int(kernels.size()), [&](int i) {
         // At roughness 1 D is constant and the kernel is NoL: that level is E/π.
         const double r = i < int(roughness.size()) ? roughness[i] : 1.0;
-        if (is_transformed(float(r)) && !control.stop.stop_requested())
+        const bool is_repeated = i > 0 && i < int(roughness.size()) && roughness[i] == roughness[i - 1];
+        if (is_transformed(float(r)) && !is_repeated && !control.stop.stop_requested())
             kernels[i] = ggx_zonal(r * r, kernel_band(r * r, band));
     });
     return kernels;
@@ -102,13 +105,15 @@ std::optional<BakedEnvironment> transform_levels(const RadianceView& view,
             kernel, face_size(roughness, std::min(plan.largest_face, settings.max_face_size)), range);
     };
     baked.timings.transform_ms = stopwatch.lap_ms();
-    baked.irradiance = make_level(kernels.back(), 1.0f);
+    if (plan.irradiance) baked.irradiance = make_level(kernels.back(), 1.0f);
     baked.timings.irradiance_ms = stopwatch.lap_ms();
     for (std::size_t i = 0; i < settings.roughness.size(); ++i) {
         const float roughness = settings.roughness[i];
         PrefilteredLevel level{roughness, {}};
-        if (roughness == 1.0f)
+        if (roughness == 1.0f && plan.irradiance)
             level.cube = baked.irradiance;
+        else if (i > 0 && roughness == settings.roughness[i - 1])
+            level.cube = baked.levels.back().cube;
         else if (!kernels[i].empty())
             level.cube = make_level(kernels[i], roughness);
         baked.levels.push_back(std::move(level));
@@ -119,26 +124,52 @@ std::optional<BakedEnvironment> transform_levels(const RadianceView& view,
     return baked;
 }
 
-void put_back(const LightExtraction& extraction, const BakeControl& control, BakedEnvironment& baked) {
-    for (PrefilteredLevel& level : baked.levels)
-        if (level.cube.size > 0) fold_back(extraction, level.roughness, level.cube, control);
-    fold_back(extraction, 1.0f, baked.irradiance, control);
-}
+/// What sharp levels are made from.
+struct SharpSource {
+    const Environment& environment;
+    const RadianceStatistics& statistics;
+    const LightExtraction& extraction;
+};
 
-/// The levels sharper than the transform resolves.
-void sample_levels(const Environment& environment, const BakeSettings& settings, const BakeControl& control,
-                   BakedEnvironment& baked) {
+/// Levels sharper than the standard ones, put before them. A small bright light has energy in every degree,
+/// and a cut-off spectrum would turn it into rings: it is taken out, and put back exactly. Sharper still, the
+/// environment is sampled; at roughness 0 it is copied. False when stopped.
+bool add_sharp_levels(const SharpSource& source, const BakeSettings& settings, Progress& progress,
+                      BakedEnvironment& baked) {
+    const BakeControl& control = progress.control;
+    std::vector<PrefilteredLevel> levels;
+    levels.reserve(settings.roughness.size());
+    for (const float roughness : settings.roughness) levels.push_back({roughness, {}});
+    if (is_transformed(settings.roughness.back())) {
+        const Plan plan = {.band = kSharpBand, .irradiance = false};
+        auto sharp =
+            transform_levels(source.extraction.residual, source.statistics, settings, plan, progress);
+        if (!sharp) return false;
+        baked.timings.transform_ms += sharp->timings.transform_ms;
+        baked.timings.levels_ms += sharp->timings.levels_ms;
+        levels = std::move(sharp->levels);
+    }
+    Stopwatch stopwatch;
     std::optional<CubePyramid> pyramid;
-    for (PrefilteredLevel& level : baked.levels) {
-        if (level.cube.size > 0 || control.stop.stop_requested()) continue;
+    for (PrefilteredLevel& level : levels) {
+        if (control.stop.stop_requested()) return false;
         const int size = face_size(level.roughness, settings.max_face_size);
-        if (level.roughness <= 0.0f) {
-            level.cube = resample_environment(environment, size, control.parallel_for);
+        if (level.cube.size > 0) {
+            if (!settings.extract_lights) fold_back(source.extraction, level.roughness, level.cube, control);
+            baked.timings.lights_ms += stopwatch.lap_ms();
             continue;
         }
-        if (!pyramid) pyramid.emplace(environment, 256, control.parallel_for);
-        level.cube = prefilter_by_sampling(*pyramid, level.roughness, kSharpSamples, size, control);
+        if (level.roughness <= 0.0f) {
+            level.cube = resample_environment(source.environment, size, control.parallel_for);
+        } else {
+            if (!pyramid) pyramid.emplace(source.environment, 256, control.parallel_for);
+            level.cube = prefilter_by_sampling(*pyramid, level.roughness, kSharpSamples, size, control);
+        }
+        baked.timings.levels_ms += stopwatch.lap_ms();
     }
+    baked.levels.insert(baked.levels.begin(), std::make_move_iterator(levels.begin()),
+                        std::make_move_iterator(levels.end()));
+    return !control.stop.stop_requested();
 }
 
 }  // namespace
@@ -162,31 +193,27 @@ std::optional<BakedEnvironment> bake_environment(const Environment& environment,
     for (const float roughness : settings.roughness) progress.total += level_cost(roughness);
     Stopwatch stopwatch;
     const RadianceStatistics statistics = radiance_statistics(view_of(environment), control.parallel_for);
-    // A small bright light has energy in every degree, and a cut-off spectrum turns it into rings: it is
-    // taken out and put back exactly.
-    const bool any_sharp = std::any_of(settings.roughness.begin(), settings.roughness.end(), is_sharp);
-    const glm::vec3 peak = statistics.highest;
-    const bool is_strong = std::max({peak.x, peak.y, peak.z}) > kStrongLight * statistics.mean;
+    const auto first_smooth =
+        std::find_if_not(settings.roughness.begin(), settings.roughness.end(), is_below_standard);
+    BakeSettings sharp = settings, smooth = settings;
+    sharp.roughness.assign(settings.roughness.begin(), first_smooth);
+    smooth.roughness.assign(first_smooth, settings.roughness.end());
     LightExtraction extraction;
-    if (any_sharp || is_strong || settings.extract_lights)
+    if (settings.extract_lights || !sharp.roughness.empty())
         extraction = extract_lights(environment, statistics, {});
-    else
-        extraction.residual = view_of(environment);
     const double extract_ms = stopwatch.lap_ms();
-    if (control.stop.stop_requested()) return std::nullopt;
-    const Plan plan = {any_sharp ? kSharpBand : kStandardBand};
-    std::optional<BakedEnvironment> baked =
-        transform_levels(extraction.residual, statistics, settings, plan, progress);
+
+    Plan plan;
+    const glm::vec3 peak = statistics.highest;
+    if (std::max({peak.x, peak.y, peak.z}) > kStrongLight * statistics.mean) plan.band = kStrongBand;
+    const RadianceView view = settings.extract_lights ? extraction.residual : view_of(environment);
+    std::optional<BakedEnvironment> baked = transform_levels(view, statistics, smooth, plan, progress);
     if (!baked) return std::nullopt;
-    stopwatch.lap_ms();
-    if (settings.extract_lights)
-        baked->lights = extraction.lights;
-    else
-        put_back(extraction, control, *baked);
-    baked->timings.lights_ms = extract_ms + stopwatch.lap_ms();
-    sample_levels(environment, settings, control, *baked);
-    baked->timings.levels_ms += stopwatch.lap_ms();
-    if (control.stop.stop_requested()) return std::nullopt;
+    if (!sharp.roughness.empty() &&
+        !add_sharp_levels({environment, statistics, extraction}, sharp, progress, *baked))
+        return std::nullopt;
+    if (settings.extract_lights) baked->lights = extraction.lights;
+    baked->timings.lights_ms += extract_ms;
     progress.add(progress.total);
     return baked;
 }
@@ -195,10 +222,10 @@ std::optional<BakedEnvironment> bake_first_light(const Environment& environment,
                                                  const BakeControl& control) {
     const Environment small = reduce(environment, 128, 64, control.parallel_for);
     BakeSettings smooth = settings;  // sharper levels hold the sharpest that few degrees can
-    constexpr float kSharpest = 0.25f;
-    for (float& roughness : smooth.roughness) roughness = std::max(roughness, kSharpest);
+    constexpr float sharpest = 0.25f;
+    for (float& roughness : smooth.roughness) roughness = std::max(roughness, sharpest);
     Progress progress{control, 4.0 + double(settings.roughness.size()) * 3.0};
-    const Plan plan = {32, 32};
+    const Plan plan = {.band = 32, .largest_face = 32};
     const RadianceView view = view_of(small);
     std::optional<BakedEnvironment> baked =
         transform_levels(view, radiance_statistics(view, control.parallel_for), smooth, plan, progress);

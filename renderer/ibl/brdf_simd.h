@@ -14,7 +14,8 @@ struct AlbedoNodes {
 };
 /// One view direction and roughness.
 struct AlbedoView {
-    float NoV, sin_v, alpha;
+    float NoV;  // NOLINT(readability-identifier-naming): the literature's letter
+    float sin_v, alpha;
     float vx, vz;  ///< the view stretched by alpha, unit
     float cap;     ///< height of the cap: z from 1 − cap to 1
     float lambda_v;

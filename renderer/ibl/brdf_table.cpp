@@ -21,15 +21,15 @@ struct Lattice {
     std::vector<float> height, cos_phi, sin_phi, weight;
 
     Lattice() {
-        constexpr int kNodes = 1597;
-        constexpr int kPrevious = 987;
-        for (int i = 0; i < kNodes || i % simd::kAlbedoNodes != 0; ++i) {
-            const double s = (i + 0.5) / kNodes;
-            const double phi = 2.0 * std::numbers::pi * std::fmod(double(i) * kPrevious, kNodes) / kNodes;
-            height.push_back(i < kNodes ? float(s * s * (3.0 - 2.0 * s)) : 0.0f);
+        constexpr int nodes = 1597;
+        constexpr int previous = 987;
+        for (int i = 0; i < nodes || i % simd::kAlbedoNodes != 0; ++i) {
+            const double s = (i + 0.5) / nodes;
+            const double phi = 2.0 * std::numbers::pi * std::fmod(double(i) * previous, nodes) / nodes;
+            height.push_back(i < nodes ? float(s * s * (3.0 - 2.0 * s)) : 0.0f);
             cos_phi.push_back(float(std::cos(phi)));
             sin_phi.push_back(float(std::sin(phi)));
-            weight.push_back(i < kNodes ? float(6.0 * s * (1.0 - s) / kNodes) : 0.0f);
+            weight.push_back(i < nodes ? float(6.0 * s * (1.0 - s) / nodes) : 0.0f);
         }
     }
     simd::AlbedoNodes view() const {

@@ -28,6 +28,8 @@ public:
     explicit FftPlan(int size);
     FftPlan(const FftPlan&) = delete;
     FftPlan& operator=(const FftPlan&) = delete;
+    FftPlan(FftPlan&&) = delete;
+    FftPlan& operator=(FftPlan&&) = delete;
     ~FftPlan();
 
     const FftView& view() const { return view_; }

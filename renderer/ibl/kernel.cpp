@@ -15,11 +15,11 @@ struct ThetaNode {
 };
 
 /// 16-point Gauss panels over 0 … π/2, growing with θ as the lobe's power law flattens (a quarter of the
-/// distance already gone) and no longer than ten radians of P_band's oscillation.
+/// distance already gone) and no longer than twenty radians of P_band's oscillation.
 std::vector<ThetaNode> theta_nodes(double alpha, int band) {
     static const GaussNodes gauss(16);
     std::vector<ThetaNode> nodes;
-    const double longest = 10.0 / std::max(10, band);
+    const double longest = 20.0 / std::max(20, band);
     for (double begin = 0.0; begin < std::numbers::pi / 2;) {
         const double step = std::min(std::max(begin * 0.25, alpha * 0.5), longest);
         const double end = std::min(std::numbers::pi / 2, begin + step);
@@ -44,14 +44,13 @@ double ggx_kernel(double theta, double alpha) {
 
 std::vector<double> ggx_zonal(double alpha, int band) {
     assert(alpha > 0.0 && band >= 0);
-    constexpr std::size_t kTogether =
-        8;  // nodes side by side: the sums' order does not depend on the machine
+    constexpr std::size_t together = 8;  // nodes side by side: the sums' order does not depend on the machine
     std::vector<ThetaNode> nodes = theta_nodes(alpha, band);
-    while (nodes.size() % kTogether != 0) nodes.push_back({0.0, 0.0});
-    std::vector<double> sums((std::size_t(band) + 1) * kTogether, 0.0);
-    for (std::size_t first = 0; first < nodes.size(); first += kTogether) {
-        double x[kTogether], w[kTogether], p[kTogether], before[kTogether];
-        for (std::size_t i = 0; i < kTogether; ++i) {
+    while (nodes.size() % together != 0) nodes.push_back({0.0, 0.0});
+    std::vector<double> sums((std::size_t(band) + 1) * together, 0.0);
+    for (std::size_t first = 0; first < nodes.size(); first += together) {
+        double x[together], w[together], p[together], before[together];
+        for (std::size_t i = 0; i < together; ++i) {
             x[i] = std::cos(nodes[first + i].theta);
             w[i] = nodes[first + i].weight;
             p[i] = 1.0;
@@ -59,8 +58,8 @@ std::vector<double> ggx_zonal(double alpha, int band) {
         }
         for (int l = 0; l <= band; ++l) {  // (l + 1) P_(l+1) = (2l + 1) x P_l − l P_(l−1)
             const double b = double(l) / (l + 1.0);
-            double* sum = &sums[std::size_t(l) * kTogether];
-            for (std::size_t i = 0; i < kTogether; ++i) {
+            double* sum = &sums[std::size_t(l) * together];
+            for (std::size_t i = 0; i < together; ++i) {
                 sum[i] += w[i] * p[i];
                 const double next = (1.0 + b) * x[i] * p[i] - b * before[i];
                 before[i] = p[i];
@@ -69,7 +68,7 @@ std::vector<double> ggx_zonal(double alpha, int band) {
         }
     }
     std::vector<double> g(std::size_t(band) + 1, 0.0);
-    for (std::size_t i = 0; i < sums.size(); ++i) g[i / kTogether] += sums[i];
+    for (std::size_t i = 0; i < sums.size(); ++i) g[i / together] += sums[i];
     const double total = g[0];
     for (double& value : g) value /= total;
     return g;

@@ -5,8 +5,8 @@
 
 namespace patina {
 
-LegendreTables::LegendreTables(int band_, const ParallelFor& parallel_for)
-    : band(band_), first(std::size_t(band_) + 2) {
+LegendreTables::LegendreTables(int largest_degree, const ParallelFor& parallel_for)
+    : band(largest_degree), first(std::size_t(largest_degree) + 2) {
     std::size_t entries = 0;
     for (int m = 0; m <= band + 1; ++m) {
         first[m] = entries;

@@ -15,7 +15,7 @@ namespace patina {
 /// one product and one fused operation a step, starting from p_m = sin^m θ, p_(m+1) = x p_m. The c are put
 /// into the coefficients, never into the loops.
 struct LegendreTables {
-    LegendreTables(int band_, const ParallelFor& parallel_for);
+    LegendreTables(int largest_degree, const ParallelFor& parallel_for);
 
     std::size_t at(int l, int m) const { return first[m] + std::size_t(l - m); }
 

@@ -118,9 +118,11 @@ Candidate measure(const Geometry& geometry, const Region& region, std::vector<un
 }
 
 /// Compact regions of texels above the threshold; wide ones again at four times the threshold.
-void search_lights(const Geometry& geometry, Region texels, double threshold, const LightSearch& search,
-                   std::vector<unsigned char>& inside, std::vector<Candidate>& found) {
-    const double largest = search.largest_rms_radius_rad * search.largest_rms_radius_rad;
+std::vector<Candidate> search_lights(const Geometry& geometry, Region texels, double threshold,
+                                     double largest_rms_radius) {
+    std::vector<unsigned char> inside(geometry.e.radiance.size(), 0);
+    std::vector<Candidate> found;
+    const double largest = largest_rms_radius * largest_rms_radius;
     while (!texels.empty()) {
         Region wide;
         for (const Region& region : connected(geometry, texels, inside)) {
@@ -135,6 +137,7 @@ void search_lights(const Geometry& geometry, Region texels, double threshold, co
         std::copy_if(wide.begin(), wide.end(), std::back_inserter(texels),
                      [&](int texel) { return luminance(geometry.radiance(texel)) > threshold; });
     }
+    return found;
 }
 
 /// Points that stand for a light at a distance: their solid angles sum to the texels'.
@@ -159,7 +162,7 @@ LightPoints make_points(const Geometry& geometry, const std::vector<LightTexel>&
         for (int k = 0; k < 4 * parts * parts; ++k) {
             const int cell = k / 4;
             const double x = texel.x + (cell % parts + 0.5 + (k & 1 ? offset : -offset)) / parts;
-            const double y = texel.y + (cell / parts + 0.5 + (k & 2 ? offset : -offset)) / parts;
+            const double y = texel.y + (double(cell / parts) + 0.5 + (k & 2 ? offset : -offset)) / parts;
             const double area = geometry.row_height * geometry.column_width *
                                 std::sin(y * geometry.row_height) / (4 * parts * parts);
             points.add(geometry.direction(x, y), area * glm::dvec3(texel.excess));
@@ -221,9 +224,8 @@ LightExtraction extract_lights(const Environment& environment, const RadianceSta
     result.residual = view_of(environment);
     if (bright.empty() || bright.size() * 4 > environment.radiance.size()) return result;
 
-    std::vector<unsigned char> inside(environment.radiance.size(), 0);
-    std::vector<Candidate> found;
-    search_lights(geometry, std::move(bright), search.threshold * mean, search, inside, found);
+    std::vector<Candidate> found =
+        search_lights(geometry, std::move(bright), search.threshold * mean, search.largest_rms_radius_rad);
     std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
         return luminance(a.irradiance) > luminance(b.irradiance);
     });

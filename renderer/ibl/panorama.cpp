@@ -82,8 +82,8 @@ Environment reduce(const Environment& e, int width, int height, const ParallelFo
 }
 
 RadianceStatistics radiance_statistics(const RadianceView& e, const ParallelFor& parallel_for) {
-    constexpr int kStrips = 32;
-    const int strips = std::min(kStrips, e.height), patches = std::min(2 * kStrips, e.width);
+    constexpr int most_strips = 32;
+    const int strips = std::min(most_strips, e.height), patches = std::min(2 * most_strips, e.width);
     std::vector<Strip> all(static_cast<std::size_t>(strips));
     parallel_for(strips, [&](int i) {
         const int first = int(std::int64_t(e.height) * i / strips),

@@ -36,9 +36,9 @@ std::vector<int> probe_texels(const CubeMap& cube, int count) {
                                             [](glm::vec3 a, glm::vec3 b) { return a.y < b.y; });
     const int n = cube.size, centre = int(brightest - cube.texels.begin());
     const int face = centre / (n * n), x = centre % n, y = centre / n % n;
-    constexpr int kOffsets[] = {-8, -4, -2, -1, 0, 1, 2, 4, 8};
-    for (const int dy : kOffsets)
-        for (const int dx : kOffsets)
+    constexpr int offsets[] = {-8, -4, -2, -1, 0, 1, 2, 4, 8};
+    for (const int dy : offsets)
+        for (const int dx : offsets)
             if (x + dx >= 0 && x + dx < n && y + dy >= 0 && y + dy < n)
                 texels.push_back((face * n + y + dy) * n + x + dx);
     return texels;
@@ -92,16 +92,16 @@ double PrefilterReference::kernel_over(const Cell& cell, glm::dvec3 N, double al
         two.*middle += cell.*side / 4;
         return kernel_over(one, N, alpha) + kernel_over(two, N, alpha);
     }
-    constexpr double kThree[3] = {-0.774596669241483377, 0.0, 0.774596669241483377};
-    constexpr double kThreeWeights[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-    constexpr double kTwo[2] = {-0.577350269189625765, 0.577350269189625765};
+    constexpr double three[3] = {-0.774596669241483377, 0.0, 0.774596669241483377};
+    constexpr double three_weights[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+    constexpr double two[2] = {-0.577350269189625765, 0.577350269189625765};
     const int points = size > 0.15 * lobe ? 3 : 2;
     double total = 0.0;
     for (int i = 0; i < points * points; ++i) {
         const int row = i / points, column = i % points;
-        const double theta = cell.theta + 0.5 * cell.height * (points == 3 ? kThree[row] : kTwo[row]);
-        const double phi = cell.phi + 0.5 * cell.width * (points == 3 ? kThree[column] : kTwo[column]);
-        const double weight = points == 3 ? kThreeWeights[row] * kThreeWeights[column] : 0.25;
+        const double theta = cell.theta + 0.5 * cell.height * (points == 3 ? three[row] : two[row]);
+        const double phi = cell.phi + 0.5 * cell.width * (points == 3 ? three[column] : two[column]);
+        const double weight = points == 3 ? three_weights[row] * three_weights[column] : 0.25;
         total += weight * std::sin(theta) * kernel(N, direction(theta, phi), alpha * alpha);
     }
     return total * cell.height * cell.width;

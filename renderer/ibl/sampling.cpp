@@ -69,8 +69,8 @@ void make_frame(glm::vec3 N, glm::vec3& T, glm::vec3& B) {
 }
 
 struct LobeSample {
-    glm::vec3 L;   ///< around +Z
-    float weight;  ///< sums to 1
+    glm::vec3 direction;  ///< around +Z
+    float weight;         ///< sums to 1
     float lod;
 };
 
@@ -210,7 +210,8 @@ CubeMap prefilter_by_sampling(const CubePyramid& source, float roughness, int sa
             make_frame(N, T, B);
             glm::vec3 sum(0.0f);
             for (const LobeSample& s : lobe)
-                sum += s.weight * source.sample(T * s.L.x + B * s.L.y + N * s.L.z, s.lod);
+                sum += s.weight *
+                       source.sample(T * s.direction.x + B * s.direction.y + N * s.direction.z, s.lod);
             cube.texels[std::size_t(row) * face_size + x] = sum;
         }
     });

@@ -92,9 +92,16 @@ simd::Column column_of(const LegendreTables& tables, int m, int band) {
     return {m, band, &tables.factor[tables.first[m]], &tables.factor_single[tables.first[m]]};
 }
 
-/// Rows to Fourier coefficients by order; the layout is [order][block of rings][part][lane].
-void analyse_rows(const FineRows& fine, const AnalysisRings& rings, int band, std::size_t order_stride,
-                  FloatBuffer& spectrum, const BakeControl& control) {
+/// Rows as Fourier coefficients: [order][block of rings][part][lane].
+struct Spectrum {
+    int band;
+    std::size_t order_stride;
+    FloatBuffer values;
+};
+
+void analyse_rows(const FineRows& fine, const AnalysisRings& rings, Spectrum& spectrum,
+                  const BakeControl& control) {
+    const int band = spectrum.band;
     const int lanes = simd::lane_count();
     const FftPlan fft(fine.columns);
     std::vector<float> phase;
@@ -126,8 +133,8 @@ void analyse_rows(const FineRows& fine, const AnalysisRings& rings, int band, st
         job.widening = rings.widening.data() + std::size_t(block) * lanes;
         job.largest_widening = float(step * step / 24.0 * (band + 1.0) * (band + 1.0));
         job.work = work.data();
-        job.spectrum = spectrum.data() + std::size_t(block) * simd::kParts * lanes;
-        job.order_stride = order_stride;
+        job.spectrum = spectrum.values.data() + std::size_t(block) * simd::kParts * lanes;
+        job.order_stride = spectrum.order_stride;
         simd::analyse_rings(job);
     });
 }
@@ -140,8 +147,8 @@ ShCoefficients analyse(const RadianceView& view, const LegendreTables& tables, c
     const FineRows fine(view, band);
     const AnalysisRings rings(fine, simd::analysis_group());
     const std::size_t order_stride = spread_stride(std::size_t(rings.padded) * simd::kParts);
-    FloatBuffer spectrum(order_stride * (std::size_t(band) + 1));
-    analyse_rows(fine, rings, band, order_stride, spectrum, control);
+    Spectrum spectrum = {band, order_stride, FloatBuffer(order_stride * (std::size_t(band) + 1))};
+    analyse_rows(fine, rings, spectrum, control);
 
     std::vector<double> area_mean;  // exp(−δ² l(l + 1)/24)
     for (int l = 0; l <= band; ++l)
@@ -153,7 +160,7 @@ ShCoefficients analyse(const RadianceView& view, const LegendreTables& tables, c
     const auto make_sums = [&] { return FloatBuffer(std::size_t(band + 6) * simd::kCoefficients * lanes); };
     run_tasks(control, band + 1, make_sums, [&](int m, FloatBuffer& sums) {
         float* values = result.values.data() + 6 * tables.first[m];
-        simd::analyse_order(column_of(tables, m, band), ring_view, spectrum.data() + order_stride * m,
+        simd::analyse_order(column_of(tables, m, band), ring_view, spectrum.values.data() + order_stride * m,
                             sums.data(), values);
         for (int l = m; l <= band; ++l)
             for (int part = 0; part < 6; ++part)
@@ -181,14 +188,14 @@ Synthesis::Synthesis(const ShCoefficients& coefficients, const BakeControl& cont
 std::size_t Synthesis::row_floats(const Grid& grid) { return std::size_t(4) * (grid.columns + 2 * kBorder); }
 
 float* Synthesis::row(const Grid& grid, int y) const {
-    return image_.data() + std::size_t(y + kBorder) * row_floats(grid) + 4 * kBorder;
+    return image_.data() + std::size_t(y + kBorder) * row_floats(grid) + std::size_t(4) * kBorder;
 }
 
 CubeMap Synthesis::to_cube(const std::vector<double>& zonal, int face_size, const Range& range) {
     assert(!zonal.empty() && int(zonal.size()) <= coefficients_.tables->band + 1);
     Grid grid;
     grid.band = int(zonal.size()) - 1;
-    grid.rings = (std::max(16, (3 * grid.band + 1) / 2) + 1) / 2 * 2;  // 1½ times what the band needs
+    grid.rings = (std::max(16, (5 * grid.band + 3) / 4) + 1) / 2 * 2;  // 1¼ times what the band needs
     grid.columns = friendly_fft_size(2 * grid.rings, 4);
     CubeMap cube{face_size, std::vector<glm::vec3>(std::size_t(6) * face_size * face_size)};
     synthesise_orders(grid, zonal);
@@ -261,7 +268,7 @@ void Synthesis::surround(const Grid& grid) {
     };
     for (int y = 0; y < grid.rings; ++y) {
         float* line = row(grid, y);
-        copy(line - 4 * kBorder, line + std::size_t(4) * (grid.columns - kBorder), kBorder);
+        copy(line - std::ptrdiff_t(4) * kBorder, line + std::size_t(4) * (grid.columns - kBorder), kBorder);
         copy(line + std::size_t(4) * grid.columns, line, kBorder);
     }
     const int half = grid.columns / 2;
@@ -270,7 +277,7 @@ void Synthesis::surround(const Grid& grid) {
             const float* from = row(grid, south ? grid.rings - 1 - i : i);
             float* to = row(grid, south ? grid.rings + i : -1 - i);
             // to[x] = from[x + half], for x from −border to columns + border
-            copy(to - 4 * kBorder, from + std::size_t(4) * (half - kBorder), half + kBorder);
+            copy(to - std::ptrdiff_t(4) * kBorder, from + std::size_t(4) * (half - kBorder), half + kBorder);
             copy(to + std::size_t(4) * half, from, half + kBorder);
         }
 }

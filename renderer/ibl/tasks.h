@@ -12,9 +12,9 @@ namespace patina {
 /// it. Results must not depend on which worker runs what. Ends early when stopped.
 template <class MakeScratch, class Body>
 void run_tasks(const BakeControl& control, int count, const MakeScratch& make_scratch, const Body& body) {
-    constexpr int kMostWorkers = 64;
+    constexpr int most_workers = 64;
     std::atomic<int> next{0};
-    control.parallel_for(kMostWorkers, [&](int) {
+    control.parallel_for(most_workers, [&](int) {
         int i = next++;
         if (i >= count) return;
         auto scratch = make_scratch();

@@ -60,6 +60,46 @@ TEST(Bake, gives_exactly_the_requested_levels_no_larger_than_asked) {
     }
 }
 
+TEST(FirstLight, has_every_level_and_is_near_where_it_is_rough) {
+    const Environment environment = sunny_panorama(256, 128, 100.0, 0.05);
+    const auto first = bake_first_light(environment, {}, {});
+    BakeSettings settings;
+    settings.max_face_size = 32;
+    const auto full = bake_environment(environment, settings, {});
+    ASSERT_TRUE(first && full);
+    ASSERT_EQ(first->levels.size(), full->levels.size());
+    for (std::size_t i = 0; i < full->levels.size(); ++i) {
+        EXPECT_EQ(first->levels[i].roughness, full->levels[i].roughness);
+        ASSERT_EQ(first->levels[i].cube.size, 32);
+        if (full->levels[i].roughness < 0.6f) continue;
+        for (std::size_t k = 0; k < full->levels[i].cube.texels.size(); ++k)
+            ASSERT_NEAR(first->levels[i].cube.texels[k].y / full->levels[i].cube.texels[k].y, 1.0f, 0.02f);
+    }
+    for (std::size_t k = 0; k < full->irradiance.texels.size(); ++k)
+        ASSERT_NEAR(first->irradiance.texels[k].y / full->irradiance.texels[k].y, 1.0f, 0.01f);
+}
+
+TEST(Bake, meets_without_a_step_where_methods_change) {
+    const Environment environment = sunny_panorama(512, 256, 1e3, 0.02);
+    BakeSettings settings;
+    settings.roughness = {0.0995f, 0.1f};  // lights put back; lights left in
+    const auto baked = bake_environment(environment, settings, {});
+    ASSERT_TRUE(baked);
+    const CubeMap &sharp = baked->levels[0].cube, &smooth = baked->levels[1].cube;
+    ASSERT_EQ(sharp.size, 2 * smooth.size);
+    const int n = smooth.size;
+    double square = 0.0;
+    for (int i = 0; i < 6 * n * n; ++i) {
+        const int face = i / (n * n), x = i % n, y = i / n % n;
+        glm::vec3 mean(0.0f);
+        for (int k = 0; k < 4; ++k)
+            mean += sharp.texels[(std::size_t(face) * 2 * n + 2 * y + k / 2) * 2 * n + 2 * x + k % 2] / 4.0f;
+        const double error = mean.y / smooth.texels[i].y - 1.0;
+        square += error * error;
+    }
+    EXPECT_LE(std::sqrt(square / (6 * n * n)), 0.01);  // roughness ½ % apart, faces of half the size
+}
+
 TEST(Bake, stops_when_asked) {
     std::stop_source stop;
     BakeControl control;
