@@ -53,8 +53,9 @@ void describe_material(const Material& before, const Material& after, std::vecto
 bool is_dirty(const Document& document, const DocumentFile& file) { return document.material != file.saved; }
 
 std::string document_title(const Document& document, const DocumentFile& file) {
-    if (!file.path.empty()) return utf8_from_path(file.path.stem());
-    return document.material.name.empty() ? "Untitled" : document.material.name;
+    const std::string& name = document.material.name;
+    if (!name.empty() && name != Material{}.name) return name;
+    return file.path.empty() ? Material{}.name : utf8_from_path(file.path.stem());
 }
 
 Material with_full_map_paths(const Material& as_written, const fs::path& preset) {

@@ -30,7 +30,7 @@ struct DocumentFile {
 };
 
 bool is_dirty(const Document& document, const DocumentFile& file);
-/// The file's name without folder and extension, else the material's name.
+/// The material's name; without one the file's, without folder and extension; else "Untitled".
 std::string document_title(const Document& document, const DocumentFile& file);
 
 /// Maps by full path ('/'), relative ones as seen from the preset; a web address stays what it is.

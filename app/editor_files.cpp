@@ -92,14 +92,18 @@ bool open_file(Editor& editor, const fs::path& file) {
     try {
         std::error_code failure;
         const fs::path full = fs::absolute(file, failure).lexically_normal();
-        const std::size_t problems_before = editor.status.log.size();
+        const std::size_t log_before = editor.status.log.size();
         const FileStamp stamp = stamp_of(full);
         DocumentFile read = read_document(editor, full);
         start_document(editor, std::move(read));
         editor.watch.saw(path_to_utf8(full), stamp);
         if (!is_shipped(full)) remember(editor.settings.recent, path_to_utf8(full));
-        if (editor.status.log.size() == problems_before)
-            say_status(editor, "Opened " + utf8_from_path(full.filename()) + ".");
+        const std::size_t notes = editor.status.log.size() - log_before;
+        log_line(editor, notes > 0 ? ui::Severity::Warning : ui::Severity::Info,
+                 "Opened " + utf8_from_path(full.filename()) +
+                     (notes == 0   ? "."
+                      : notes == 1 ? " with a note."
+                                   : " with " + std::to_string(notes) + " notes."));
         fill_catalog(editor);
         return true;
     } catch (const std::exception& error) {

@@ -54,6 +54,12 @@ std::uint64_t bytes_of(const ReadyEnvironment& ready) {
     return texels * 8;  // half floats, four channels
 }
 
+std::string mesh_title(const Registry& registry, const std::string& id) {
+    for (const MeshPart& part : registry.meshes)
+        if (part.id == id) return part.title;
+    return short_name(id);
+}
+
 /// Everything of one slot, value included.
 void copy_slot(const Material& from, Material& to, MapSlot slot) {
     switch (slot) {

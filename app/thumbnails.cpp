@@ -170,9 +170,11 @@ void Thumbnails::State::start(const Key& key) {
             case Kind::Mesh:
                 find_mesh_picture(registry, options.folder, id, *found);
                 break;
-            case Kind::Picture:
-                found->picture = load_map(registry, {.file = id}).thumbnail;
+            case Kind::Picture: {
+                const Image image = import_image(registry, utf8_to_path(id)).image;
+                found->picture = small_picture(image, kThumbnailPx, image.type == PixelType::F32);
                 break;
+            }
         }
         std::error_code ignored;
         if (found->picture && !found->cache_file.empty() && !fs::exists(found->cache_file, ignored))

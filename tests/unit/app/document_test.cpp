@@ -58,12 +58,14 @@ TEST(Document, names_maps_relative_to_the_folder_it_is_saved_in) {
     EXPECT_EQ(again.albedo.map, full.albedo.map);
 }
 
-TEST(Document, is_called_after_its_file_or_else_after_its_material) {
+TEST(Document, is_called_after_its_material_or_else_after_its_file) {
     Document document;
+    const DocumentFile file{.path = path_from_utf8("/presets/größe.json")};
     EXPECT_EQ(document_title(document, {}), "Untitled");
+    EXPECT_EQ(document_title(document, file), "größe");
     document.material.name = "Rust";
     EXPECT_EQ(document_title(document, {}), "Rust");
-    EXPECT_EQ(document_title(document, {.path = path_from_utf8("/presets/größe.json")}), "größe");
+    EXPECT_EQ(document_title(document, file), "Rust");
     document.material.name.clear();
     EXPECT_EQ(document_title(document, {}), "Untitled");
 }

@@ -1,0 +1,365 @@
+// The program as a person meets it: each test opens the window, does something and looks at what came of it.
+#include "materials/material_io.h"
+#include "renderer/core/image_io.h"
+#include "tests/ui/editor_harness.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace {
+
+using namespace patina;
+using namespace patina::test;
+namespace fs = std::filesystem;
+
+#define EXPECT_DRIVEN(outcome)                    \
+    do {                                          \
+        const Outcome seen = (outcome);           \
+        EXPECT_EQ(seen.status, 0) << seen.errors; \
+    } while (false)
+
+/// A scanned material as it is downloaded: metal with rust, packed maps, a DirectX normal map.
+fs::path make_scan(const Folder& home) {
+    const fs::path folder = home / "Rusty_Metal_2K";
+    write_picture(folder / "Rusty_Metal_2K_BaseColor.png", 180, 90, 60);
+    write_picture(folder / "Rusty_Metal_2K_ORM.png", 255, 128, 200);
+    write_picture(folder / "Rusty_Metal_2K_NormalDX.png", 128, 128, 255);
+    write_picture(folder / "Rusty_Metal_2K_Displacement.png", 10, 10, 10);
+    return folder;
+}
+
+void write_preset(const fs::path& file, const std::string& text) {
+    fs::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary) << text;
+}
+
+TEST(Editor, takes_a_folder_of_maps_in_and_gives_a_preset_out) {
+    const Folder home;
+    const fs::path scan = make_scan(home);
+    EXPECT_DRIVEN(drive(home, R"(
+wait idle
+expect clean
+drop ")" + scan.string() + R"("
+wait until item import.apply
+click import.apply
+wait idle
+expect dirty
+expect albedo.state=ok
+expect roughness.channel=g
+expect metallic.channel=b
+expect normal.convention=directx
+expect roughness=1
+drag material.roughness.bar -60 0
+wait idle
+expect roughness<0.8
+expect undo=Roughness
+drag material.metallic.bar -40 0
+expect metallic<0.9
+key ctrl+z
+expect metallic=1
+key ctrl+z
+expect roughness=1
+expect redo=Roughness
+key ctrl+shift+z
+expect roughness<0.8
+expect metallic=1
+key ctrl+s
+wait until item browser.file_name
+click browser.file_name
+key ctrl+a
+type rust
+key enter
+wait until clean
+expect file~rust.json
+expect status~Saved
+)"));
+    const Material saved = load_material(home / "rust.json").material;
+    EXPECT_EQ(saved.albedo.map, "Rusty_Metal_2K/Rusty_Metal_2K_BaseColor.png");
+    EXPECT_EQ(saved.roughness.map, "Rusty_Metal_2K/Rusty_Metal_2K_ORM.png");
+    EXPECT_EQ(saved.ao.map, saved.roughness.map);
+    EXPECT_EQ(saved.metallic.channel, Channel::B);
+    EXPECT_EQ(saved.normal.convention, NormalConvention::DirectX);
+    EXPECT_LT(saved.roughness.value, 0.8f);
+    EXPECT_GT(saved.roughness.value, 0.3f);
+    EXPECT_EQ(saved.metallic.value, 1.0f);
+    const std::string before = read_text(home / "rust.json");
+    EXPECT_DRIVEN(drive(home, R"(
+wait idle
+expect clean
+expect roughness<0.8
+expect albedo.state=ok
+expect normal.state=ok
+key ctrl+s
+wait idle
+expect clean
+)",
+                        {(home / "rust.json").string()}));
+    EXPECT_EQ(read_text(home / "rust.json"), before);
+}
+
+TEST(Editor, draws_nothing_while_nothing_changes) {
+    const Folder home;
+    EXPECT_DRIVEN(drive(home, R"(
+wait idle
+mark
+wait 3 seconds
+expect frames=0
+expect views=0
+hover material.metallic.bar      # a hover draws the interface, not the picture
+wait idle
+expect frames>0
+expect views=0
+drag viewport 40 0
+wait idle
+expect views>0
+mark
+wait 1 seconds
+expect frames=0
+)"));
+}
+
+TEST(Editor, gives_unsaved_work_back_after_a_crash_and_to_one_window_only) {
+    const Folder home;
+    const fs::path sign = home / "ready.png";
+    write_preset(home / "gold.json", R"({"name": "Gold", "roughness": {"value": 0.25}})");
+    Program crashing(home, drive_arguments(home, R"(
+wait idle
+drag material.metallic.bar 90 0
+expect dirty
+wait 2 seconds
+screenshot )" + sign.string() + R"(
+wait 300 seconds
+)",
+                                           {(home / "gold.json").string()}));
+    ASSERT_TRUE(wait_for_file(sign)) << crashing.wait().errors;
+    EXPECT_DRIVEN(drive(home, "wait idle\nexpect recovery=no\nexpect metallic=0\n"));
+    crashing.kill();
+    EXPECT_DRIVEN(drive(home, R"(
+wait idle
+expect recovery=asked
+click recovery.later
+wait idle
+expect recovery=no
+)"));
+    EXPECT_DRIVEN(drive(home, R"(
+wait idle
+expect recovery=asked
+click recovery.recover
+wait idle
+expect recovery=no
+expect dirty
+expect metallic>0.3
+expect roughness=0.25
+expect file~gold.json
+key ctrl+s
+wait until clean
+)"));
+    EXPECT_GT(load_material(home / "gold.json").material.metallic.value, 0.3f);
+    EXPECT_DRIVEN(drive(home, "wait idle\nexpect recovery=no\n"));
+    for (const auto& entry : fs::directory_iterator(home / "state"))
+        EXPECT_EQ(entry.path().filename(), "settings.json");
+}
+
+TEST(Editor, keeps_a_preset_with_a_missing_and_a_broken_map_as_it_is) {
+    const Folder home;
+    const std::string text = R"({
+  "name": "Lost",
+  "albedo": { "value": [1, 1, 1], "map": "gone/color.png" },
+  "roughness": { "value": 0.5, "map": "./broken.png" }
+}
+)";
+    write_preset(home / "p" / "lost.json", text);
+    write_preset(home / "p" / "broken.png", "this is no picture");
+    EXPECT_DRIVEN(drive(home, R"(
+wait idle
+expect albedo.state=missing
+expect roughness.state=broken
+expect log~color.png
+expect log~broken.png
+expect item material.albedo.locate
+click material.name
+key ctrl+a
+type Found
+key enter
+expect dirty
+key ctrl+s
+wait until clean
+)",
+                        {(home / "p" / "lost.json").string()}));
+    const Material saved = load_material(home / "p" / "lost.json").material;
+    EXPECT_EQ(saved.name, "Found");
+    EXPECT_EQ(saved.albedo.map, "gone/color.png");
+    EXPECT_EQ(saved.roughness.map, "./broken.png");
+}
+
+TEST(Editor, reads_a_map_again_that_was_painted_over_on_disk) {
+    const Folder home;
+    const fs::path map = home / "color.png", sign = home / "ready.png";
+    write_picture(map, 200, 30, 30);
+    write_preset(home / "red.json", R"({"albedo": {"value": [1, 1, 1], "map": "color.png"}})");
+    Program program(home, drive_arguments(home, R"(
+wait idle
+expect albedo.state=ok
+expect maps_loaded=1
+screenshot )" + sign.string() + R"(
+wait idle
+mark
+wait until maps_loaded=2
+wait idle
+expect albedo.state=ok
+expect views>0
+expect clean
+)",
+                                          {(home / "red.json").string()}));
+    ASSERT_TRUE(wait_for_file(sign)) << program.wait().errors;
+    write_picture(map, 30, 30, 200, 32);
+    EXPECT_DRIVEN(program.wait());
+}
+
+TEST(Editor, bakes_a_light_once_and_takes_it_from_memory_the_second_time) {
+    const Folder home;
+    EXPECT_DRIVEN(drive(home, R"(
+wait idle
+click library.environments
+wait idle
+click "library.environments.White furnace"
+wait idle
+expect environment=furnace
+expect lights_from_memory=0
+click library.environments.Studio
+wait idle
+expect environment=studio
+expect lights_from_memory=1
+click "library.environments.White furnace"
+wait idle
+expect lights_from_memory=2
+key ctrl+z
+expect environment=studio
+)"));
+}
+
+TEST(Editor, keeps_the_document_when_it_cannot_be_saved) {
+    const Folder home;
+    fs::create_directories(home / "taken.json");
+    EXPECT_DRIVEN(drive(home, R"(
+wait idle
+drag material.roughness.bar 40 0
+expect dirty
+key ctrl+s
+wait until item browser.file_name
+click browser.file_name
+key ctrl+a
+type taken.json
+key enter
+wait until status~taken.json
+expect dirty
+expect roughness>0.55
+expect file=
+)"));
+    EXPECT_TRUE(fs::is_directory(home / "taken.json"));
+    EXPECT_TRUE(fs::is_empty(home / "taken.json"));
+}
+
+TEST(Editor, asks_before_unsaved_changes_are_lost) {
+    const Folder home;
+    EXPECT_DRIVEN(drive(home, R"(
+wait idle
+drag material.roughness.bar 40 0
+close
+wait until unsaved=asked
+click unsaved.cancel
+wait idle
+expect unsaved=no
+expect dirty
+key ctrl+n
+wait until unsaved=asked
+click unsaved.discard
+wait idle
+expect clean
+expect roughness=0.5
+drag material.roughness.bar 40 0
+key ctrl+n
+wait until unsaved=asked
+click unsaved.save
+wait until item browser.cancel
+click browser.cancel
+wait idle
+expect dirty            # the save was called off, so the new document was, too
+)"));
+}
+
+TEST(Editor, opens_presets_meshes_and_environments_that_are_dropped_on_it) {
+    const Folder home;
+    write_preset(home / "gold.json", R"({"name": "Gold", "metallic": {"value": 1}})");
+    write_preset(home / "roof.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+    Image sky = make_image(64, 32, 3, PixelType::F32);
+    for (int x = 0; x < 64; ++x) set_texel(sky, x, 3, 0, 20.0f);
+    save_image(home / "evening.exr", sky);
+    EXPECT_DRIVEN(drive(home, "wait idle\ndrop " + (home / "gold.json").string() + " at viewport\n" +
+                                  "wait until metallic=1\ndrop " + (home / "roof.obj").string() +
+                                  "\nwait until mesh~roof.obj\nwait idle\nexpect triangles=2\ndrop " +
+                                  (home / "evening.exr").string() +
+                                  "\nwait until environment~evening.exr\nwait idle\nexpect clean\ndrop " +
+                                  (home / "nothing.txt").string() + "\nwait until status~neither\n"));
+}
+
+TEST(Editor, goes_back_to_what_worked_when_a_light_or_mesh_cannot_be_read) {
+    const Folder home;
+    write_preset(home / "broken.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 32 +X 64\nhalf");
+    write_preset(home / "flat.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n");
+    EXPECT_DRIVEN(
+        drive(home, "wait idle\ndrop " + (home / "broken.hdr").string() +
+                        "\nwait until status~broken.hdr\nwait idle\nexpect environment=studio\ndrop " +
+                        (home / "flat.obj").string() +
+                        "\nwait until status~flat.obj\nwait idle\nexpect mesh=sphere\nexpect clean\n"));
+}
+
+TEST(Editor, exports_the_picture_for_the_screen_and_for_measuring) {
+    const Folder home;
+    for (const char* name : {"shot.png", "shot.exr"})
+        EXPECT_DRIVEN(drive(home, R"(
+wait idle
+key ctrl+e
+wait until item browser.file_name
+click browser.file_name
+key ctrl+a
+type )" + std::string(name) + R"(
+key enter
+wait until status~Exported
+)"));
+    EXPECT_EQ(load_image_info(home / "shot.png").type, PixelType::U8);
+    EXPECT_EQ(load_image_info(home / "shot.exr").type, PixelType::F32);
+    EXPECT_EQ(load_image_info(home / "shot.png").width, load_image_info(home / "shot.exr").width);
+}
+
+TEST(Editor, starts_with_corrupt_settings_and_a_preset_that_is_not_there) {
+    const Folder home;
+    write_preset(home / "state" / "settings.json", "{ \"window_width\": ");
+    EXPECT_DRIVEN(drive(home, "wait idle\nexpect log~settings\nexpect log~missing.json\nexpect clean\n",
+                        {(home / "missing.json").string()}));
+    const std::string settings = read_text(home / "state" / "settings.json");
+    EXPECT_NE(settings.find("window_height"), std::string::npos);
+}
+
+TEST(Editor, says_in_one_line_that_there_is_no_display) {
+    const Folder home;
+    Program program(home, {}, {{"DISPLAY", ""}});
+    const Outcome outcome = program.wait();
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.errors.find("patina: "), std::string::npos) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("window"), std::string::npos) << outcome.errors;
+}
+
+TEST(Drive, names_the_line_of_a_script_that_fails) {
+    const Folder home;
+    const Outcome failed = drive(home, "wait idle\nexpect roughness=0.9\n");
+    EXPECT_EQ(failed.status, 1);
+    EXPECT_NE(failed.errors.find(".drive:2: roughness is '0.5'"), std::string::npos) << failed.errors;
+    const Outcome unknown = drive(home, "wait idle\njump\n");
+    EXPECT_EQ(unknown.status, 1);
+    EXPECT_NE(unknown.errors.find(".drive:2: there is no command 'jump'"), std::string::npos)
+        << unknown.errors;
+}
+
+}  // namespace
