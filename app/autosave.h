@@ -46,7 +46,9 @@ public:
     /// Makes the folder and takes a lock in it. Never throws: without a usable folder nothing is kept, and
     /// problem() says so in one sentence.
     explicit RecoveryFiles(std::filesystem::path folder);
-    ~RecoveryFiles();  ///< gives up the locks; removes this editor's file
+    /// Gives up the locks. A file that was not removed is then found by the next editor, so work survives
+    /// every end that was not a clean one.
+    ~RecoveryFiles();
     RecoveryFiles(const RecoveryFiles&) = delete;
     RecoveryFiles& operator=(const RecoveryFiles&) = delete;
 

@@ -118,7 +118,7 @@ RecoveryFiles::RecoveryFiles(fs::path folder) : state_(std::make_unique<State>()
             "folder of your own.";
 }
 
-RecoveryFiles::~RecoveryFiles() { remove(); }
+RecoveryFiles::~RecoveryFiles() = default;
 
 const std::string& RecoveryFiles::problem() const { return state_->problem; }
 

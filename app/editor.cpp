@@ -42,10 +42,14 @@ Drawn signature_of(const Scene& scene) {
 class Loop {
 public:
     Loop(const EditArgs& args, const Registry& registry);
+    ~Loop() { jobs_.end(); }  // before the editor that they refer to
+    Loop(const Loop&) = delete;
+    Loop& operator=(const Loop&) = delete;
     int run();
 
 private:
-    bool open_what_was_named();
+    void open_what_was_named();
+    void live();
     void take_events();
     void think();
     bool needs_frame() const;
@@ -67,6 +71,7 @@ private:
     Editor editor_;
     std::optional<Drive> drive_;
     ui::ItemRecorder items_;
+    const Camera home_camera_;
 
     TargetHandle target_;
     Drawn drawn_;
@@ -111,14 +116,13 @@ Loop::Loop(const EditArgs& args, const Registry& registry)
     for (const std::string& note : remembered_.notes) log_line(editor_, ui::Severity::Warning, note);
 }
 
-/// False if the preset that was named cannot be had; the editor then shows why.
-bool Loop::open_what_was_named() {
-    if (args_.preset.empty() || args_.preset == "-") return true;
+/// Where it cannot be had, the editor opens with a new material and says why.
+void Loop::open_what_was_named() {
+    if (args_.preset.empty() || args_.preset == "-") return;
     try {
-        return open_file(editor_, find_preset(args_.preset));
+        open_file(editor_, find_preset(args_.preset));
     } catch (const std::exception& error) {
         log_line(editor_, ui::Severity::Error, error.what());
-        return false;
     }
 }
 
@@ -220,7 +224,6 @@ void Loop::frame() {
     fill_status();
     fill_thumbnails();
 
-    static const Camera kHome{};
     ui::PanelContext context{.material = editor_.document.material,
                              .view = editor_.document.view,
                              .camera = editor_.camera,
@@ -231,7 +234,7 @@ void Loop::frame() {
                              .import_sheet = editor_.import_sheet,
                              .saved_material = editor_.file.saved,
                              .saved_view = editor_.saved_view,
-                             .home_camera = kHome,
+                             .home_camera = home_camera_,
                              .catalog = editor_.catalog,
                              .status = editor_.status,
                              .maps = editor_.reconciler.maps(),
@@ -301,11 +304,7 @@ void Loop::remember_window() {
     save_settings(state_folder(), settings);
 }
 
-int Loop::run() {
-    fill_catalog(editor_);
-    read_presets(editor_);
-    open_what_was_named();
-    offer_recovery(editor_);
+void Loop::live() {
     while (!editor_.quit) {
         window_.wait(sleep_s());
         drive();
@@ -313,6 +312,23 @@ int Loop::run() {
         think();
         if (needs_frame()) frame();
     }
+}
+
+int Loop::run() {
+    fill_catalog(editor_);
+    read_presets(editor_);
+    open_what_was_named();
+    offer_recovery(editor_);
+    try {
+        live();
+    } catch (
+        ...) {  // the driver gave up, memory is used up: what the artist did is offered at the next start
+        jobs_.end();
+        if (is_dirty(editor_.document, editor_.file)) keep_now(editor_);
+        throw;
+    }
+    jobs_.end();
+    editor_.recovery.remove();
     try {
         remember_window();
     } catch (const std::exception& error) {  // closing must not fail for a window size

@@ -108,6 +108,9 @@ bool open_file(Editor& editor, const fs::path& file) {
         return true;
     } catch (const std::exception& error) {
         log_line(editor, ui::Severity::Error, error.what());
+        std::error_code ignored;
+        if (!fs::exists(file, ignored)) std::erase(editor.settings.recent, path_to_utf8(file));
+        fill_catalog(editor);
         return false;
     }
 }
@@ -124,6 +127,7 @@ bool save_file(Editor& editor, const fs::path& chosen) {
         editor.file = {.path = file, .as_written = written, .saved = editor.document.material};
         editor.watch.saw(path_to_utf8(file), stamp_of(file));
         remember(editor.settings.recent, path_to_utf8(file));
+        editor.thumbnails.forget(Thumbnails::Kind::Preset, path_to_utf8(file));
         log_line(editor, ui::Severity::Info, "Saved " + utf8_from_path(file.filename()) + ".");
         fill_catalog(editor);
     } catch (const std::exception& error) {
@@ -160,6 +164,7 @@ void reread_preset(Editor& editor) {
         const bool was_dirty = is_dirty(editor.document, editor.file);
         DocumentFile read = read_document(editor, file);
         if (read.saved == editor.file.saved) return;
+        editor.thumbnails.forget(Thumbnails::Kind::Preset, path_to_utf8(file));
         editor.file = std::move(read);
         if (!was_dirty) editor.document.material = editor.file.saved;
         log_line(editor, was_dirty ? ui::Severity::Warning : ui::Severity::Info,

@@ -51,6 +51,8 @@ void bring_recovery_file_up_to_date(Editor& editor) {
         });
 }
 
+}  // namespace
+
 bool keep_now(Editor& editor) {
     try {
         editor.to_keep = to_json(Recovery{editor.document, editor.file.path, std::time(nullptr)});
@@ -62,8 +64,6 @@ bool keep_now(Editor& editor) {
         return false;
     }
 }
-
-}  // namespace
 
 void offer_recovery(Editor& editor) {
     if (!editor.recovery.problem().empty())

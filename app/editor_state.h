@@ -101,6 +101,8 @@ void reread_preset(Editor& editor);
 void offer_recovery(Editor& editor);
 void answer_recovery(Editor& editor, ui::request::Recovery answer);
 void keep_work(Editor& editor, double now_s);
+/// Without waiting for a quiet moment: the program is about to end badly. False if it could not be kept.
+bool keep_now(Editor& editor);
 void watch_files(Editor& editor, double now_s);
 /// Seconds until one of them wants the loop again.
 double next_errand_s(const Editor& editor, double now_s);

@@ -199,7 +199,9 @@ Jobs::Jobs(int threads, std::function<void()> wake) : state_(std::make_shared<St
         state_->workers.emplace_back([state = state_.get()] { state->run_worker(); });
 }
 
-Jobs::~Jobs() {
+Jobs::~Jobs() { end(); }
+
+void Jobs::end() {
     {
         const std::lock_guard lock(state_->mutex);
         state_->ending = true;
@@ -224,6 +226,7 @@ Jobs::Id Jobs::start(std::string label, Work work, std::function<void(const std:
     {
         const std::lock_guard lock(state_->mutex);
         job->id = state_->next_id++;
+        if (state_->ending) return job->id;
         state_->queued.push_back(job);
         state_->waiting_jobs.store(static_cast<int>(state_->queued.size()), std::memory_order_relaxed);
     }

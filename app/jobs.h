@@ -25,7 +25,10 @@ public:
     /// every few hundredths of a second for progress.
     explicit Jobs(
         int threads, std::function<void()> wake = [] {});
-    ~Jobs();  ///< stops all jobs and waits for them
+    ~Jobs();
+    /// Stops all jobs, waits for them and drops their results; nothing is started afterwards. For whoever
+    /// owns what the jobs refer to; the destructor does it as well.
+    void end();
     Jobs(const Jobs&) = delete;
     Jobs& operator=(const Jobs&) = delete;
 

@@ -244,12 +244,11 @@ Jobs::Id Reconciler::State::start_mesh(const std::string& key) {
                               expect(meshes, key, ready, [this, key](Ready& loaded) {
                                   const Mesh& mesh = *loaded.mesh;
                                   HeldMesh held{.handle = renderer.upload_mesh(mesh), .mesh = loaded.mesh};
-                                  held.info = {
-                                      .title = mesh.name.empty() ? short_name(id_of(key)) : mesh.name,
-                                      .triangles = mesh.indices.size() / 3,
-                                      .vertices = mesh.vertices.size(),
-                                      .has_uvs = mesh.has_uvs,
-                                      .notes = mesh.notes};
+                                  held.info = {.title = mesh_title(registry, id_of(key)),
+                                               .triangles = mesh.indices.size() / 3,
+                                               .vertices = mesh.vertices.size(),
+                                               .has_uvs = mesh.has_uvs,
+                                               .notes = mesh.notes};
                                   meshes.finished(key, std::move(held), 2 * bytes_of(mesh));
                                   return true;
                               });

@@ -156,8 +156,16 @@ TEST(Autosave, leaves_nothing_behind_after_a_clean_end) {
         files.write(to_json(some_work()));
         files.remove();
         files.write(to_json(some_work()));
+        files.remove();
     }
     EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(Autosave, survives_an_end_that_was_not_clean) {
+    const Folder folder;
+    { RecoveryFiles(folder.path()).write(to_json(some_work())); }
+    RecoveryFiles next(folder.path());
+    EXPECT_TRUE(next.claim_orphan());
 }
 
 TEST(Autosave, skips_a_broken_file_without_deleting_it) {
