@@ -17,8 +17,8 @@ namespace {
 constexpr int kLevelCount = 16;
 constexpr float kStandardSharpest = 0.0999f;  ///< smoother levels need no more than the standard band
 constexpr int kStandardBand = 600;
-constexpr int kStrongBand = 800;  ///< where a light of kStrongLight times the mean reaches every degree
-constexpr double kStrongLight = 5e4;
+constexpr double kStrongLight = 2e4;  ///< of the mean: a light that reaches beyond the standard band …
+constexpr float kStrongSharpest = 0.1499f;     ///< … up to this roughness
 constexpr float kTransformSharpest = 0.0599f;  ///< the transform's limit
 constexpr int kSharpBand = 1000;
 constexpr double kTruncation = 7e-4;  ///< relative rms of what a level leaves out
@@ -41,8 +41,6 @@ int face_size(float roughness, int largest) {
 }
 
 bool is_transformed(float roughness) { return roughness >= kTransformSharpest; }
-
-bool is_below_standard(float roughness) { return roughness < kStandardSharpest; }
 
 /// Calls progress with shares of the work done; only ever from the thread that bakes.
 struct Progress {
@@ -131,17 +129,17 @@ struct SharpSource {
     const LightExtraction& extraction;
 };
 
-/// Levels sharper than the standard ones, put before them. A small bright light has energy in every degree,
-/// and a cut-off spectrum would turn it into rings: it is taken out, and put back exactly. Sharper still, the
-/// environment is sampled; at roughness 0 it is copied. False when stopped.
+/// Levels too sharp for the standard transform, put before the others. A small bright light has energy in
+/// every degree, and a cut-off spectrum would turn it into rings: it is taken out, and put back exactly.
+/// Sharper still, the environment is sampled; at roughness 0 it is copied. False when stopped.
 bool add_sharp_levels(const SharpSource& source, const BakeSettings& settings, Progress& progress,
                       BakedEnvironment& baked) {
     const BakeControl& control = progress.control;
-    std::vector<PrefilteredLevel> levels;
-    levels.reserve(settings.roughness.size());
-    for (const float roughness : settings.roughness) levels.push_back({roughness, {}});
+    std::vector<PrefilteredLevel> levels(settings.roughness.size());
+    for (std::size_t i = 0; i < levels.size(); ++i) levels[i].roughness = settings.roughness[i];
     if (is_transformed(settings.roughness.back())) {
-        const Plan plan = {.band = kSharpBand, .irradiance = false};
+        const bool is_standard = settings.roughness.front() >= kStandardSharpest;
+        const Plan plan = {.band = is_standard ? kStandardBand : kSharpBand, .irradiance = false};
         auto sharp =
             transform_levels(source.extraction.residual, source.statistics, settings, plan, progress);
         if (!sharp) return false;
@@ -193,8 +191,10 @@ std::optional<BakedEnvironment> bake_environment(const Environment& environment,
     for (const float roughness : settings.roughness) progress.total += level_cost(roughness);
     Stopwatch stopwatch;
     const RadianceStatistics statistics = radiance_statistics(view_of(environment), control.parallel_for);
-    const auto first_smooth =
-        std::find_if_not(settings.roughness.begin(), settings.roughness.end(), is_below_standard);
+    const glm::vec3 peak = statistics.highest;
+    const bool is_strong = std::max({peak.x, peak.y, peak.z}) > kStrongLight * statistics.mean;
+    const auto first_smooth = std::lower_bound(settings.roughness.begin(), settings.roughness.end(),
+                                               is_strong ? kStrongSharpest : kStandardSharpest);
     BakeSettings sharp = settings, smooth = settings;
     sharp.roughness.assign(settings.roughness.begin(), first_smooth);
     smooth.roughness.assign(first_smooth, settings.roughness.end());
@@ -203,11 +203,8 @@ std::optional<BakedEnvironment> bake_environment(const Environment& environment,
         extraction = extract_lights(environment, statistics, {});
     const double extract_ms = stopwatch.lap_ms();
 
-    Plan plan;
-    const glm::vec3 peak = statistics.highest;
-    if (std::max({peak.x, peak.y, peak.z}) > kStrongLight * statistics.mean) plan.band = kStrongBand;
     const RadianceView view = settings.extract_lights ? extraction.residual : view_of(environment);
-    std::optional<BakedEnvironment> baked = transform_levels(view, statistics, smooth, plan, progress);
+    std::optional<BakedEnvironment> baked = transform_levels(view, statistics, smooth, {}, progress);
     if (!baked) return std::nullopt;
     if (!sharp.roughness.empty() &&
         !add_sharp_levels({environment, statistics, extraction}, sharp, progress, *baked))

@@ -1,7 +1,5 @@
 #include "renderer/ibl/lights.h"
 
-#include "renderer/ibl/kernel.h"
-
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -16,18 +14,11 @@ constexpr double kPi = std::numbers::pi;
 
 double luminance(glm::dvec3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
-struct Geometry {
+struct Geometry : TexelGrid {
     const Environment& e;
-    double row_height = kPi / e.height;
-    double column_width = 2.0 * kPi / e.width;
 
-    double area(int y) const {
-        return (std::cos(y * row_height) - std::cos((y + 1) * row_height)) * column_width;
-    }
-    glm::dvec3 direction(double x, double y) const {  // in texels
-        const double theta = y * row_height, phi = x * column_width;
-        return {-std::sin(theta) * std::sin(phi), std::cos(theta), std::sin(theta) * std::cos(phi)};
-    }
+    explicit Geometry(const Environment& environment)
+        : TexelGrid{environment.width, environment.height}, e(environment) {}
     glm::dvec3 radiance(int texel) const { return e.radiance[texel]; }
     int neighbour(int texel, int dx, int dy) const {  // −1 beyond a pole
         const int y = texel / e.width + dy;
@@ -104,9 +95,9 @@ Candidate measure(const Geometry& geometry, const Region& region, std::vector<un
     double square = 0.0, own_square = 0.0, total = 0.0;
     for (const LightTexel& texel : light.texels) {
         const glm::dvec3 apart = geometry.direction(texel.x + 0.5, texel.y + 0.5) - light.direction;
-        const double width = geometry.column_width * std::sin((texel.y + 0.5) * geometry.row_height);
+        const double width = geometry.column_width() * std::sin((texel.y + 0.5) * geometry.row_height());
         const double own =
-            (geometry.row_height * geometry.row_height + width * width) / 12.0;  // of the texel's area
+            (geometry.row_height() * geometry.row_height() + width * width) / 12.0;  // of the texel's area
         const double flux = luminance(geometry.area(texel.y) * glm::dvec3(texel.excess));
         square += flux * glm::dot(apart, apart);
         own_square += flux * own;
@@ -140,79 +131,11 @@ std::vector<Candidate> search_lights(const Geometry& geometry, Region texels, do
     return found;
 }
 
-/// Points that stand for a light at a distance: their solid angles sum to the texels'.
-struct LightPoints {
-    std::vector<float> x, y, z, red, green, blue;
-
-    void add(glm::dvec3 direction, glm::dvec3 flux) {
-        x.push_back(float(direction.x));
-        y.push_back(float(direction.y));
-        z.push_back(float(direction.z));
-        red.push_back(float(flux.x));
-        green.push_back(float(flux.y));
-        blue.push_back(float(flux.z));
-    }
-};
-
-/// Every texel in parts × parts cells of 2 × 2 Gauss points.
-LightPoints make_points(const Geometry& geometry, const std::vector<LightTexel>& texels, int parts) {
-    const double offset = 0.5 / std::numbers::sqrt3;
-    LightPoints points;
-    for (const LightTexel& texel : texels)
-        for (int k = 0; k < 4 * parts * parts; ++k) {
-            const int cell = k / 4;
-            const double x = texel.x + (cell % parts + 0.5 + (k & 1 ? offset : -offset)) / parts;
-            const double y = texel.y + (double(cell / parts) + 0.5 + (k & 2 ? offset : -offset)) / parts;
-            const double area = geometry.row_height * geometry.column_width *
-                                std::sin(y * geometry.row_height) / (4 * parts * parts);
-            points.add(geometry.direction(x, y), area * glm::dvec3(texel.excess));
-        }
-    return points;
-}
-
-/// Σ flux · K over the points in front of N. K = (1 − 2s) α²/(s + α²(1 − s))² with s = |N − L|²/4, which is
-/// exact for small angles in single precision.
-glm::vec3 sum_points(const LightPoints& points, glm::vec3 N, float alpha2) {
-    float red = 0.0f, green = 0.0f, blue = 0.0f;
-    for (std::size_t i = 0; i < points.x.size(); ++i) {
-        const float dx = points.x[i] - N.x, dy = points.y[i] - N.y, dz = points.z[i] - N.z;
-        const float s = 0.25f * (dx * dx + dy * dy + dz * dz);
-        const float d = s + alpha2 * (1.0f - s);
-        const float kernel = std::max(0.0f, 1.0f - 2.0f * s) * alpha2 / (d * d);
-        red += points.red[i] * kernel;
-        green += points.green[i] * kernel;
-        blue += points.blue[i] * kernel;
-    }
-    return {red, green, blue};
-}
-
-/// One light at three distances: as it is, each texel as a whole, and as a point.
-struct FoldedLight {
-    glm::vec3 direction;
-    float near_cosine, far_cosine, horizon;
-    LightPoints fine, texels, point;
-};
-
-FoldedLight prepare(const Geometry& geometry, const std::vector<LightTexel>& texels,
-                    const ExtractedLight& light, double alpha) {
-    const double size = std::max(geometry.row_height, geometry.column_width);
-    const double extent = 3.0 * light.angular_radius_rad + size;
-    FoldedLight folded;
-    folded.direction = light.direction;
-    folded.near_cosine = float(std::cos(std::min(kPi, extent + 8.0 * size)));
-    folded.far_cosine = float(std::cos(std::min(kPi, 100.0 * extent)));
-    folded.horizon = float(2.0 * extent);  // the kernel has a kink there
-    folded.fine = make_points(geometry, texels, std::clamp(int(std::ceil(2.0 * size / alpha)), 4, 32));
-    folded.texels = make_points(geometry, texels, 1);
-    folded.point.add(light.direction, light.irradiance);
-    return folded;
-}
-
 }  // namespace
 
 LightExtraction extract_lights(const Environment& environment, const RadianceStatistics& statistics,
                                const LightSearch& search) {
-    const Geometry geometry{environment};
+    const Geometry geometry(environment);
     const double mean = luminance(statistics.mean_color);
     Region bright;
     const float threshold = float(search.threshold * mean);
@@ -245,37 +168,6 @@ LightExtraction extract_lights(const Environment& environment, const RadianceSta
     }
     for (const auto& [y, index] : changed) result.residual.rows[y] = result.changed_rows[index].data();
     return result;
-}
-
-void fold_back(const LightExtraction& extraction, float roughness, CubeMap& cube,
-               const BakeControl& control) {
-    if (extraction.lights.empty() || roughness <= 0.0f) return;
-    const double alpha = double(roughness) * roughness;
-    Environment shape;  // only its size is looked at
-    shape.width = extraction.residual.width;
-    shape.height = extraction.residual.height;
-    const Geometry geometry{shape};
-    std::vector<FoldedLight> lights;
-    for (std::size_t i = 0; i < extraction.lights.size(); ++i)
-        lights.push_back(prepare(geometry, extraction.texels[i], extraction.lights[i], alpha));
-    const float scale = float(1.0 / ggx_kernel_integral(alpha));
-    const float alpha2 = float(alpha * alpha);
-    control.parallel_for(6 * cube.size, [&](int row) {
-        if (control.stop.stop_requested()) return;
-        for (int x = 0; x < cube.size; ++x) {
-            const glm::vec3 N = cube_texel_direction(cube.size, row / cube.size, x, row % cube.size);
-            glm::vec3 sum(0.0f);
-            for (const FoldedLight& light : lights) {
-                const float cosine = glm::dot(N, light.direction);
-                const bool is_near = cosine > light.near_cosine || std::abs(cosine) < light.horizon;
-                const LightPoints& points = is_near                     ? light.fine
-                                            : cosine > light.far_cosine ? light.texels
-                                                                        : light.point;
-                sum += sum_points(points, N, alpha2);
-            }
-            cube.texels[std::size_t(row) * cube.size + x] += scale * sum;
-        }
-    });
 }
 
 }  // namespace patina

@@ -46,6 +46,19 @@ Strip measure_strip(const RadianceView& e, int first_row, int last_row, int patc
 
 }  // namespace
 
+double TexelGrid::row_height() const { return std::numbers::pi / height; }
+
+double TexelGrid::column_width() const { return 2.0 * std::numbers::pi / width; }
+
+double TexelGrid::area(int y) const {
+    return (std::cos(y * row_height()) - std::cos((y + 1) * row_height())) * column_width();
+}
+
+glm::dvec3 TexelGrid::direction(double x, double y) const {
+    const double theta = y * row_height(), phi = x * column_width();
+    return {-std::sin(theta) * std::sin(phi), std::cos(theta), std::sin(theta) * std::cos(phi)};
+}
+
 RadianceView view_of(const Environment& e) {
     RadianceView view{e.width, e.height, {}};
     for (int y = 0; y < e.height; ++y) view.rows.push_back(&e.radiance[std::size_t(y) * e.width]);

@@ -13,6 +13,17 @@ struct RadianceView {
     int height = 0;
     std::vector<const glm::vec3*> rows;
 };
+/// Where texels lie on the sphere.
+struct TexelGrid {
+    int width = 0;
+    int height = 0;
+
+    double row_height() const;
+    double column_width() const;
+    double area(int y) const;                        ///< of a texel of row y
+    glm::dvec3 direction(double x, double y) const;  ///< of a point, in texels from the top-left corner
+};
+
 RadianceView view_of(const Environment& environment);
 
 /// Averages to at most width × height texels, each texel of the source counted with its solid angle.
