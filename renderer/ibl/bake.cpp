@@ -178,6 +178,7 @@ void serial_for(int count, const std::function<void(int)>& body) {
 
 std::vector<float> standard_roughness_levels() {
     std::vector<float> levels;
+    levels.reserve(kLevelCount);
     for (int i = 0; i < kLevelCount; ++i)
         levels.push_back(float(std::pow(10.0, double(i) / (kLevelCount - 1) - 1.0)));
     levels.back() = 1.0f;
