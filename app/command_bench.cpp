@@ -3,6 +3,8 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/paths.h"
+#include "app/plot_bench.h"
+#include "app/plot_io.h"
 #include "renderer/core/file_io.h"
 
 #include <nlohmann/json.hpp>
@@ -51,10 +53,14 @@ int run_bench(const BenchArgs& args, const Registry& registry) {
         throw std::runtime_error(utf8_from_path(folder) + ": cannot be created (" + error.message() + ")");
     for (const Benchmark* benchmark : chosen(args.names)) {
         say(std::string(benchmark->name) + ": " + std::string(benchmark->description));
-        const std::string text = benchmark->run(context).dump(2) + "\n";
+        const nlohmann::ordered_json result = benchmark->run(context);
+        const std::string text = result.dump(2) + "\n";
         const std::filesystem::path file = folder / (std::string(benchmark->name) + ".json");
         write_file(file, std::as_bytes(std::span(text)));
         say("wrote " + utf8_from_path(file));
+        for (const NamedPlot& each : bench_plots(benchmark->name, result))
+            for (const std::filesystem::path& picture : save_plot(folder / each.stem, each.plot))
+                say("wrote " + utf8_from_path(picture));
     }
     return 0;
 }
