@@ -176,9 +176,11 @@ void add_bake(CLI::App& root, Args& args) {
         ->type_name("R,R,...");
     app->add_flag("--keep-lights", args.bake.keep_lights,
                   "Fold lights that were taken out back into the levels");
-    app->add_option("--format", args.bake.format, "exr: face strips")
-        ->check(CLI::IsMember({"exr"}))
-        ->type_name("exr");
+    app->add_option(
+           "--format", args.bake.format,
+           "exr: face strips, for this program and any other; ktx: cube maps for Filament and three.js")
+        ->check(CLI::IsMember({"exr", "ktx"}))
+        ->type_name("exr|ktx");
 }
 
 void add_bench(CLI::App& root, Args& args) {
@@ -195,7 +197,10 @@ void add_bench(CLI::App& root, Args& args) {
 /// gold.json`.
 void sort_out_presets(RenderArgs& render) {
     std::vector<std::string>& environments = render.scene.environments;
-    const auto is_preset = [](const std::string& text) { return text == "-" || text.ends_with(".json"); };
+    const auto is_preset = [](const std::string& text) {
+        const std::string_view name = std::string_view(text).substr(text.find_last_of("/\\") + 1);
+        return text == "-" || (name.ends_with(".json") && name != "bake.json");  // which is baked light
+    };
     std::ranges::copy_if(environments, std::back_inserter(render.presets), is_preset);
     std::erase_if(environments, is_preset);
 }
@@ -259,6 +264,13 @@ ParsedArgs parse_args(const std::vector<std::string>& words) {
     args.command = chosen_command(root);
     sort_out_presets(args.render);
     if (args.render.scene.environments.empty()) args.render.scene.environments = {"studio"};
+    if (args.command == Command::Bake && args.bake.format == "ktx") {
+        if (!args.bake.roughness.empty())
+            return {std::nullopt,
+                    "patina: --levels goes with --format exr; the mips of a KTX file set its levels\n", 2};
+        if ((args.bake.size & (args.bake.size - 1)) != 0)
+            return {std::nullopt, "patina: --format ktx takes a --size that is a power of two\n", 2};
+    }
     if (args.command == Command::Compare && args.render.presets.empty())
         return {std::nullopt, "patina: compare needs at least one preset\n", 2};
     if (args.command == Command::Render &&

@@ -62,12 +62,15 @@ ReadyMap load_map(const Registry& registry, const MapRequest& request, int max_s
 std::optional<ReadyEnvironment> load_and_bake(const Registry& registry, const std::string& id,
                                               const BakeSettings& settings, const BakeCache& cache,
                                               const BakeControl& control) {
-    const Environment environment = load_environment(registry, id);
+    LoadedLight light = load_light(registry, id);
+    const Environment& environment = light.environment;
     if (control.stop.stop_requested()) return std::nullopt;
     control.progress(kDecodeShare);
     BakeControl rest = control;
     rest.progress = [&](float fraction) { control.progress(kDecodeShare + kBakeShare * fraction); };
-    std::optional<CachedBake> bake = cached_bake(environment, settings, rest, cache);
+    std::optional<CachedBake> bake = light.baked
+                                         ? CachedBake{.baked = std::move(*light.baked), .from_disk = true}
+                                         : cached_bake(environment, settings, rest, cache);
     if (!bake || control.stop.stop_requested()) return std::nullopt;
     ReadyEnvironment ready{.title = environment.title,
                            .width = environment.width,

@@ -1,5 +1,6 @@
 #include "app/registry.h"
 
+#include "app/bake_files.h"
 #include "app/paths.h"
 #include "renderer/core/mesh_io.h"
 #include "ui/workspace.h"
@@ -39,6 +40,15 @@ Environment load_environment_file(const std::string& id) {
     return environment;
 }
 
+EnvironmentSource bake_environment_source() {
+    return {.name = "bake",
+            .description = "Light that patina bake has written: the folder, or bake.json in it",
+            .list = [] { return std::vector<EnvironmentItem>{}; },
+            .accepts = [](const std::string& id) { return is_bake(path_from_utf8(id)); },
+            .load = [](const std::string& id) { return load_bake(path_from_utf8(id)).environment; },
+            .load_baked = [](const std::string& id) { return load_bake(path_from_utf8(id)); }};
+}
+
 EnvironmentSource file_environment_source() {
     return {.name = "file",
             .description = "Equirectangular pictures: Radiance .hdr, OpenEXR .exr, or any other picture",
@@ -75,7 +85,8 @@ std::string either(const std::vector<std::string>& names) {
 
 Registry builtin_parts() {
     Registry registry;
-    registry.environments = {builtin_environment_source(), file_environment_source()};
+    registry.environments = {builtin_environment_source(), bake_environment_source(),
+                             file_environment_source()};
     registry.image_importers = {
         {.name = "openimageio",
          .description = "Pictures through OpenImageIO",
@@ -122,13 +133,28 @@ fs::path find_preset(const std::string& name) {
         name + ": there is no such file and no shipped preset of that name (patina list presets shows them)");
 }
 
-Environment load_environment(const Registry& registry, const std::string& id) {
+namespace {
+
+const EnvironmentSource& environment_source(const Registry& registry, const std::string& id) {
     for (const EnvironmentSource& source : registry.environments)
-        if (source.accepts(id)) return source.load(id);
+        if (source.accepts(id)) return source;
     std::vector<std::string> ids;
     for (const EnvironmentItem& item : registry.environments.front().list()) ids.push_back(item.id);
     throw std::runtime_error("there is no environment '" + id + "'; name a picture file or one of " +
                              either(ids));
+}
+
+}  // namespace
+
+Environment load_environment(const Registry& registry, const std::string& id) {
+    return environment_source(registry, id).load(id);
+}
+
+LoadedLight load_light(const Registry& registry, const std::string& id) {
+    const EnvironmentSource& source = environment_source(registry, id);
+    if (!source.load_baked) return {source.load(id), std::nullopt};
+    BakedLight light = source.load_baked(id);
+    return {std::move(light.environment), std::move(light.baked)};
 }
 
 std::string environment_title(const Registry& registry, const std::string& id) {

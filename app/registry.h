@@ -6,10 +6,12 @@
 #include "renderer/core/environment.h"
 #include "renderer/core/image_io.h"
 #include "renderer/core/mesh.h"
+#include "renderer/ibl/bake.h"
 #include "ui/panel_context.h"
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,12 +24,19 @@ struct EnvironmentItem {
     std::string title;
     std::string description;
 };
+/// Light that needs no baking, and the panorama that is seen behind things.
+struct BakedLight {
+    Environment environment;
+    BakedEnvironment baked;
+};
 struct EnvironmentSource {
     std::string name;  ///< "built-in", "blender", "file"
     std::string description;
     std::function<std::vector<EnvironmentItem>()> list;
     std::function<bool(const std::string& id)> accepts;
     std::function<Environment(const std::string& id)> load;
+    std::function<BakedLight(const std::string& id)> load_baked =
+        {};  ///< instead of load, where the source bakes
 };
 
 /// extensions: lower case, without the dot. load throws std::runtime_error with one sentence that names the
@@ -78,6 +87,12 @@ std::filesystem::path find_preset(const std::string& name);
 Environment load_environment(const Registry& registry, const std::string& id);
 /// What it is called in pictures and lists, without loading it.
 std::string environment_title(const Registry& registry, const std::string& id);
+/// Likewise, with its light where the source has that baked.
+struct LoadedLight {
+    Environment environment;
+    std::optional<BakedEnvironment> baked;
+};
+LoadedLight load_light(const Registry& registry, const std::string& id);
 /// By id ("sphere") or file path; likewise.
 Mesh load_mesh_part(const Registry& registry, const std::string& id);
 /// By the file's extension; likewise.

@@ -39,8 +39,10 @@ EnvironmentHandle SceneLoader::environment(const std::string& id) {
     EnvironmentHandle& handle = environments_[id];
     if (handle) return handle;
     options_.progress("loading " + id, 0.0f);
-    const Environment environment = load_environment(registry_, id);
+    const LoadedLight light = load_light(registry_, id);
+    const Environment& environment = light.environment;
     for (const std::string& note : environment.notes) options_.note(id + ": " + note);
+    if (light.baked) return handle = renderer_.upload_environment(environment, *light.baked);
     const BakeControl control{
         .parallel_for = options_.parallel_for,
         .progress = [&](float fraction) { options_.progress("baking " + id, fraction); },

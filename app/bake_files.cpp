@@ -1,0 +1,113 @@
+#include "app/bake_files.h"
+
+#include "app/ktx.h"
+#include "app/paths.h"
+#include "renderer/core/file_io.h"
+#include "renderer/core/image_io.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <span>
+
+namespace patina {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// Six faces side by side, +X −X +Y −Y +Z −Z, each in OpenGL's orientation.
+Image face_strip(const CubeMap& cube) {
+    Image strip = make_image(6 * cube.size, cube.size, 3, PixelType::F32);
+    const std::size_t row = sizeof(glm::vec3) * std::size_t(cube.size);
+    for (int face = 0; face < 6; ++face)
+        for (int y = 0; y < cube.size; ++y)
+            std::memcpy(strip.bytes.data() + std::size_t(y * 6 + face) * row,
+                        cube.texels.data() + std::size_t(face * cube.size + y) * std::size_t(cube.size), row);
+    return strip;
+}
+
+Image brdf_picture(const BrdfTable& table) {
+    Image picture = make_image(table.size, table.size, 3, PixelType::F32);
+    for (int y = 0; y < table.size; ++y)
+        for (int x = 0; x < table.size; ++x) {
+            const glm::vec2 ab = table.ab[std::size_t(y * table.size + x)];
+            set_texel(picture, x, y, 0, ab.x);
+            set_texel(picture, x, y, 1, ab.y);
+        }
+    return picture;
+}
+
+Json triple(glm::vec3 v) { return Json::array({v.x, v.y, v.z}); }
+
+Json light_json(const ExtractedLight& light) {
+    return {{"direction", triple(light.direction)},
+            {"irradiance", triple(light.irradiance)},
+            {"angular_radius", light.angular_radius_rad}};
+}
+
+Json source_json(const Environment& environment) {
+    return {{"id", environment.id}, {"width", environment.width}, {"height", environment.height}};
+}
+
+/// A name for files: what the environment is called, without what a file system or a web address may not
+/// like.
+std::string file_stem(const Environment& environment) {
+    std::string stem = utf8_from_path(path_from_utf8(environment.id).stem());
+    for (char& c : stem) {
+        const bool plain =
+            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
+        if (!plain && static_cast<unsigned char>(c) < 0x80) c = '_';
+    }
+    return stem.empty() ? "environment" : stem;
+}
+
+}  // namespace
+
+Json write_bake_exr(const fs::path& folder, const Environment& environment, const BakedEnvironment& baked) {
+    Json json{{"source", source_json(environment)}, {"size", 0}, {"levels", Json::array()}};
+    int largest = 0;
+    for (std::size_t k = 0; k < baked.levels.size(); ++k) {
+        const PrefilteredLevel& level = baked.levels[k];
+        const std::string number = std::to_string(k);
+        const std::string file = "level_" + std::string(number.size() < 2 ? "0" : "") + number + ".exr";
+        save_image(folder / file, face_strip(level.cube));
+        json["levels"].push_back({{"file", file}, {"size", level.cube.size}, {"roughness", level.roughness}});
+        largest = std::max(largest, level.cube.size);
+    }
+    json["size"] = largest;
+    save_image(folder / "irradiance.exr", face_strip(baked.irradiance));
+    json["irradiance"] = {{"file", "irradiance.exr"}, {"size", baked.irradiance.size}};
+    const BrdfTable table = bake_brdf_table();
+    save_image(folder / "brdf.exr", brdf_picture(table));
+    json["brdf"] = {{"file", "brdf.exr"}, {"size", table.size}, {"x", "sqrt(NoV)"}, {"y", "roughness"}};
+    json["lights"] = Json::array();
+    for (const ExtractedLight& light : baked.lights) json["lights"].push_back(light_json(light));
+    return json;
+}
+
+Json write_bake_ktx(const fs::path& folder, const Environment& environment, const BakedEnvironment& baked) {
+    const int exponent = ktx_exponent(baked, environment.id);
+    const std::string stem = file_stem(environment) + "_ibl";
+    write_file(folder / path_from_utf8(stem + ".ktx"), to_ktx1(baked, exponent));
+    write_file(folder / path_from_utf8(stem + ".ktx2"), to_ktx2(baked, exponent));
+    Json json{
+        {"source", source_json(environment)},
+        {"size", baked.levels.front().cube.size},
+        {"ktx", {{"file", stem + ".ktx"}, {"orientation", "texel at d: light from d"}}},
+        {"ktx2", {{"file", stem + ".ktx2"}, {"orientation", "texel at (-x, y, z): light from (x, y, z)"}}},
+        {"scale", std::ldexp(1.0, exponent)},
+        {"mips", Json::array()},
+        {"irradiance_sh", Json::array()},
+        {"lights", Json::array()}};
+    for (const PrefilteredLevel& level : baked.levels)
+        json["mips"].push_back({{"size", level.cube.size}, {"roughness", level.roughness}});
+    for (const glm::vec3& coefficient : irradiance_coefficients(baked.irradiance))
+        json["irradiance_sh"].push_back(triple(coefficient));
+    return json;
+}
+
+}  // namespace patina
