@@ -81,7 +81,7 @@ void AutosaveClock::written() { first_change_s_.reset(); }
 
 std::optional<double> AutosaveClock::due_in_s(double now_s) const {
     if (!first_change_s_) return std::nullopt;
-    const double when = std::min(last_change_s_ + kQuiet_s, *first_change_s_ + kAtLeastEvery_s);
+    const double when = std::min(last_change_s_ + kQuietSeconds, *first_change_s_ + kAtLeastEverySeconds);
     return std::max(0.0, when - now_s);
 }
 

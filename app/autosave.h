@@ -28,8 +28,8 @@ std::optional<Recovery> parse_recovery(std::string_view text);
 /// clock is passed in as seconds.
 class AutosaveClock {
 public:
-    static constexpr double kQuiet_s = 1.0;
-    static constexpr double kAtLeastEvery_s = 5.0;
+    static constexpr double kQuietSeconds = 1.0;
+    static constexpr double kAtLeastEverySeconds = 5.0;
     void changed(double now_s);
     void written();
     bool due(double now_s) const;

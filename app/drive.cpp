@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMaxScriptBytes = 1 << 20;
-constexpr double kItemPatience_s = 20.0;
-constexpr double kPatience_s = 180.0;
+constexpr double kItemPatienceSeconds = 20.0;
+constexpr double kPatienceSeconds = 180.0;
 constexpr int kScrollTries = 120;
 constexpr int kDragSteps = 8;
 
@@ -91,7 +91,10 @@ std::vector<DriveCommand> parse_drive(std::string_view text, const std::string& 
     for (std::string source; std::getline(stream, source);) {
         ++line;
         const auto complain = [&](const std::string& what) {
-            throw std::runtime_error(name + ":" + std::to_string(line) + ": " + what + ".");
+            std::string sentence = name;
+            sentence += ":" + std::to_string(line);
+            sentence += ": " + what + ".";
+            throw std::runtime_error(sentence);
         };
         const auto words = split_line(source);
         if (!words) complain("a quotation mark is left open");
@@ -132,7 +135,7 @@ Drive::Action Drive::reach(const std::string& label, glm::vec2 fraction) {
     return [this, label, fraction, tries = 0](Window& window, const DriveView& view) mutable {
         const ui::RecordedItem* item = view.items.find(label);
         if (!item) {
-            if (now_s_ - began_s_ > kItemPatience_s)
+            if (now_s_ - began_s_ > kItemPatienceSeconds)
                 fail("there is no item '" + label + "'; " + names_like(view.items, label));
             return false;
         }
@@ -209,7 +212,7 @@ void Drive::begin_keys(const DriveCommand& command) {
 void Drive::begin_wait(const DriveCommand& command, const DriveView& view, double now_s) {
     const auto& words = command.words;
     const auto patience = [this](const std::string& what) {
-        if (now_s_ - began_s_ > kPatience_s) fail("waited in vain: " + what);
+        if (now_s_ - began_s_ > kPatienceSeconds) fail("waited in vain: " + what);
         return false;
     };
     if (words[1] == "idle") {

@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kFramesAfterEvent = 3;  ///< the one that shows it, and two in which popups and layouts settle
-constexpr double kCaret_s = 0.3;
-constexpr double kAnimation_s = 1.0 / 60.0;
+constexpr double kCaretSeconds = 0.3;
+constexpr double kAnimationSeconds = 1.0 / 60.0;
 
 BakeCache bake_cache() { return {.folder = cache_folder() / "ibl"}; }
 
@@ -160,7 +160,7 @@ bool Loop::needs_frame() const {
     return frames_wanted_ > 0 || animating_ || editor_.changes != changes_shown_ ||
            editor_.thumbnails.version() != thumbnails_shown_ || jobs_.running() != jobs_shown_ ||
            editor_.reconciler.pending() != pending_shown_ ||
-           (window_.wants_text() && window_.time_s() - last_frame_s_ >= kCaret_s) ||
+           (window_.wants_text() && window_.time_s() - last_frame_s_ >= kCaretSeconds) ||
            (editor_.reconciler.drawable() &&
             !(signature_of(editor_.reconciler.scene(editor_.camera, editor_.document.view)) == drawn_));
 }
@@ -279,8 +279,8 @@ double Loop::sleep_s() const {
     if (more_uploads_ || (drive_ && drive_->busy())) return 0.0;
     if (needs_frame()) return 0.0;
     double wait = next_errand_s(editor_, window_.time_s());
-    if (window_.wants_text()) wait = std::min(wait, kCaret_s);
-    if (editor_.thumbnails.busy()) wait = std::min(wait, kAnimation_s);
+    if (window_.wants_text()) wait = std::min(wait, kCaretSeconds);
+    if (editor_.thumbnails.busy()) wait = std::min(wait, kAnimationSeconds);
     if (drive_) wait = std::min(wait, 0.02);
     return std::max(wait, 0.001);
 }

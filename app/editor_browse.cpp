@@ -29,9 +29,9 @@ fs::path likely_folder(const Editor& editor) {
              folder = folder.parent_path())
             if (usable(folder)) return folder;
     }
-    const fs::path last = utf8_to_path(editor.settings.last_folder);
+    fs::path last = utf8_to_path(editor.settings.last_folder);
     if (browser.purpose == ui::BrowserPurpose::SavePreset && !editor.file.path.empty()) {
-        const fs::path own = editor.file.path.parent_path();
+        fs::path own = editor.file.path.parent_path();
         if (usable(own) && own != share_folder() / "presets") return own;
     }
     if (usable(last)) return last;

@@ -141,7 +141,7 @@ void take_dropped(Editor& editor, const ui::request::Dropped& dropped) {
     }
     if (dropped.slot && sorted.maps.size() == 1 && dropped.files.size() == 1)
         return assign_map(editor, *dropped.slot, sorted.maps[0]);
-    if (folders || sorted.maps.size() > 0) return propose_maps(editor, dropped.files);
+    if (folders || !sorted.maps.empty()) return propose_maps(editor, dropped.files);
     if (!sorted.meshes.empty()) use_mesh(editor, sorted.meshes.back());
     if (!sorted.environments.empty()) use_environment(editor, sorted.environments.back());
     if (!sorted.presets.empty()) ask_open(editor, sorted.presets.back());

@@ -11,8 +11,8 @@ namespace patina {
 
 namespace {
 
-constexpr double kWatchEvery_s = 0.5;
-constexpr double kRestless_s = 3600.0;
+constexpr double kWatchEverySeconds = 0.5;
+constexpr double kRestlessSeconds = 3600.0;
 
 std::string time_in_words(std::int64_t unix_time_s) {
     const auto then = static_cast<std::time_t>(unix_time_s);
@@ -122,7 +122,7 @@ void keep_work(Editor& editor, double now_s) {
 void watch_files(Editor& editor, double now_s) {
     for (const auto& [file, stamp] : editor.reconciler.take_files_read()) editor.watch.saw(file, stamp);
     if (now_s < editor.next_watch_s || editor.jobs.is_running(editor.watch_job)) return;
-    editor.next_watch_s = now_s + kWatchEvery_s;
+    editor.next_watch_s = now_s + kWatchEverySeconds;
     std::vector<std::string> wanted{editor.document.mesh, editor.document.environment};
     if (!editor.file.path.empty()) wanted.push_back(path_to_utf8(editor.file.path));
     for (const ui::MapStatus& map : editor.reconciler.maps()) wanted.push_back(map.full_path);
@@ -131,6 +131,7 @@ void watch_files(Editor& editor, double now_s) {
     if (files.empty()) return;
     editor.watch_job = editor.jobs.start("", [&editor, files](JobContext&) -> Jobs::Done {
         std::vector<std::pair<std::string, FileStamp>> polled;
+        polled.reserve(files.size());
         for (const std::string& file : files) polled.emplace_back(file, stamp_of(utf8_to_path(file)));
         return [&editor, polled = std::move(polled)] {
             for (const std::string& file : editor.watch.changed(polled)) {
@@ -146,7 +147,7 @@ void watch_files(Editor& editor, double now_s) {
 
 double next_errand_s(const Editor& editor, double now_s) {
     double wait = std::max(0.0, editor.next_watch_s - now_s);
-    wait = std::min(wait, editor.autosave.due_in_s(now_s).value_or(kRestless_s));
+    wait = std::min(wait, editor.autosave.due_in_s(now_s).value_or(kRestlessSeconds));
     return wait;
 }
 

@@ -15,7 +15,10 @@
 #else
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
+#ifdef __APPLE__
 extern char** environ;
+#endif
 #endif
 
 namespace patina {

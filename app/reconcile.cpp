@@ -124,7 +124,7 @@ struct Reconciler::State {
     void expect(Supply<T>& supply, const std::string& key, std::shared_ptr<Ready> ready, Upload upload);
     template <class T>
     std::function<void(const std::string&)> when_failed(Supply<T>& supply, const std::string& key,
-                                                        std::shared_ptr<FileStamp> stamp);
+                                                        const std::shared_ptr<FileStamp>& stamp);
     void note(const std::string& id, const std::vector<std::string>& notes) const;
     bool slot_ready(const Document& document, int slot) const;
     MapHandle handle_for(const Document& document, int slot) const;
@@ -181,9 +181,8 @@ void Reconciler::State::expect(Supply<T>& supply, const std::string& key, std::s
 }
 
 template <class T>
-std::function<void(const std::string&)> Reconciler::State::when_failed(Supply<T>& supply,
-                                                                       const std::string& key,
-                                                                       std::shared_ptr<FileStamp> stamp) {
+std::function<void(const std::string&)> Reconciler::State::when_failed(
+    Supply<T>& supply, const std::string& key, const std::shared_ptr<FileStamp>& stamp) {
     return [this, &supply, key, stamp](const std::string& error) {
         files_read.emplace_back(id_of(key), *stamp);
         if (supply.is_loading(key)) options.log(ui::Severity::Error, error);

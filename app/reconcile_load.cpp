@@ -94,12 +94,13 @@ Image small_picture(const Image& image, int max_side, bool linear) {
     const int samples = shrink > 1.0f ? kSamplesPerSide : 1;
     const auto sample = [&](int x, int y, int channel) {
         float sum = 0.0f;
-        for (int s = 0; s < samples * samples; ++s) {
-            const float u = (float(x) + (float(s % samples) + 0.5f) / float(samples)) / float(width);
-            const float v = (float(y) + (float(s / samples) + 0.5f) / float(samples)) / float(height);
-            sum += texel(image, std::min(int(u * float(image.width)), image.width - 1),
-                         std::min(int(v * float(image.height)), image.height - 1), channel);
-        }
+        for (int j = 0; j < samples; ++j)
+            for (int i = 0; i < samples; ++i) {
+                const float u = (float(x) + (float(i) + 0.5f) / float(samples)) / float(width);
+                const float v = (float(y) + (float(j) + 0.5f) / float(samples)) / float(height);
+                sum += texel(image, std::min(int(u * float(image.width)), image.width - 1),
+                             std::min(int(v * float(image.height)), image.height - 1), channel);
+            }
         return sum / float(samples * samples);
     };
     for (int y = 0; y < height; ++y)

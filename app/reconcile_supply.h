@@ -27,7 +27,7 @@ public:
     Supply(std::size_t slots, std::uint64_t max_bytes) : slots_(slots), memory_(max_bytes) {}
 
     const Slot& slot(std::size_t i) const { return slots_[i]; }
-    void want(std::size_t i, std::string key) { slots_[i].keys.wanted = std::move(key); }
+    void want(std::size_t i, const std::string& key) { slots_[i].keys.wanted = key; }
     std::optional<T> in_memory(const std::string& key) { return memory_.get(key); }
 
     /// start(key) begins a load and gives its id; stop(id) ends one. Returns how many wants were met from

@@ -20,7 +20,7 @@
 namespace patina {
 namespace {
 
-constexpr float kDrivenFrame_s = 1.0f / 60.0f;
+constexpr float kDrivenFrameSeconds = 1.0f / 60.0f;
 constexpr int kMouseButtons = 3;
 
 struct KeyEvent {
@@ -162,7 +162,7 @@ void Window::State::override_mouse() const {
     ImGuiIO& io = ImGui::GetIO();
     io.MousePos = ImVec2(mouse.x, mouse.y);
     for (int i = 0; i < kMouseButtons; ++i) io.MouseDown[i] = mouse_down[i];
-    io.DeltaTime = kDrivenFrame_s;
+    io.DeltaTime = kDrivenFrameSeconds;
 }
 
 void Window::State::measure_scale(float& interface, float& framebuffer) const {
@@ -323,34 +323,37 @@ void Window::resize(glm::ivec2 size) { glfwSetWindowSize(state_->window, size.x,
 void Window::ask_to_close() { state_->events.close = state_->events.any = true; }
 void Window::call_for_frame() { state_->events.any = true; }
 
+namespace {
+constexpr std::array<std::pair<const char*, int>, 21> kKeyNames{{{"ctrl", GLFW_KEY_LEFT_CONTROL},
+                                                                 {"shift", GLFW_KEY_LEFT_SHIFT},
+                                                                 {"alt", GLFW_KEY_LEFT_ALT},
+                                                                 {"super", GLFW_KEY_LEFT_SUPER},
+                                                                 {"escape", GLFW_KEY_ESCAPE},
+                                                                 {"enter", GLFW_KEY_ENTER},
+                                                                 {"tab", GLFW_KEY_TAB},
+                                                                 {"space", GLFW_KEY_SPACE},
+                                                                 {"backspace", GLFW_KEY_BACKSPACE},
+                                                                 {"delete", GLFW_KEY_DELETE},
+                                                                 {"insert", GLFW_KEY_INSERT},
+                                                                 {"left", GLFW_KEY_LEFT},
+                                                                 {"right", GLFW_KEY_RIGHT},
+                                                                 {"up", GLFW_KEY_UP},
+                                                                 {"down", GLFW_KEY_DOWN},
+                                                                 {"home", GLFW_KEY_HOME},
+                                                                 {"end", GLFW_KEY_END},
+                                                                 {"pageup", GLFW_KEY_PAGE_UP},
+                                                                 {"pagedown", GLFW_KEY_PAGE_DOWN},
+                                                                 {"plus", GLFW_KEY_KP_ADD},
+                                                                 {"minus", GLFW_KEY_MINUS}}};
+}  // namespace
+
 int key_code(const std::string& name) {
     if (name.size() == 1 && name[0] >= 'a' && name[0] <= 'z') return GLFW_KEY_A + (name[0] - 'a');
     if (name.size() == 1 && std::strchr("0123456789-=[]\\;',./` ", name[0]))
         return name[0];  // GLFW's codes for these are their ASCII codes
     if (name.size() >= 2 && name[0] == 'f' && name.find_first_not_of("0123456789", 1) == std::string::npos)
         return GLFW_KEY_F1 + std::clamp(std::atoi(name.c_str() + 1), 1, 25) - 1;
-    static constexpr std::array<std::pair<const char*, int>, 21> kNames{{{"ctrl", GLFW_KEY_LEFT_CONTROL},
-                                                                         {"shift", GLFW_KEY_LEFT_SHIFT},
-                                                                         {"alt", GLFW_KEY_LEFT_ALT},
-                                                                         {"super", GLFW_KEY_LEFT_SUPER},
-                                                                         {"escape", GLFW_KEY_ESCAPE},
-                                                                         {"enter", GLFW_KEY_ENTER},
-                                                                         {"tab", GLFW_KEY_TAB},
-                                                                         {"space", GLFW_KEY_SPACE},
-                                                                         {"backspace", GLFW_KEY_BACKSPACE},
-                                                                         {"delete", GLFW_KEY_DELETE},
-                                                                         {"insert", GLFW_KEY_INSERT},
-                                                                         {"left", GLFW_KEY_LEFT},
-                                                                         {"right", GLFW_KEY_RIGHT},
-                                                                         {"up", GLFW_KEY_UP},
-                                                                         {"down", GLFW_KEY_DOWN},
-                                                                         {"home", GLFW_KEY_HOME},
-                                                                         {"end", GLFW_KEY_END},
-                                                                         {"pageup", GLFW_KEY_PAGE_UP},
-                                                                         {"pagedown", GLFW_KEY_PAGE_DOWN},
-                                                                         {"plus", GLFW_KEY_KP_ADD},
-                                                                         {"minus", GLFW_KEY_MINUS}}};
-    for (const auto& [known, code] : kNames)
+    for (const auto& [known, code] : kKeyNames)
         if (name == known) return code;
     return 0;
 }

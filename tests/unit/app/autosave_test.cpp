@@ -87,13 +87,13 @@ TEST(Autosave, waits_for_a_quiet_moment_but_not_for_ever) {
     EXPECT_FALSE(clock.due_in_s(0.0));
     clock.changed(10.0);
     EXPECT_FALSE(clock.due(10.5));
-    EXPECT_DOUBLE_EQ(*clock.due_in_s(10.5), AutosaveClock::kQuiet_s - 0.5);
-    EXPECT_TRUE(clock.due(10.0 + AutosaveClock::kQuiet_s));
+    EXPECT_DOUBLE_EQ(*clock.due_in_s(10.5), AutosaveClock::kQuietSeconds - 0.5);
+    EXPECT_TRUE(clock.due(10.0 + AutosaveClock::kQuietSeconds));
     clock.written();
     EXPECT_FALSE(clock.due(100.0));
     double now = 200.0;
     while (!clock.due(now)) clock.changed(now += 0.1);
-    EXPECT_NEAR(now, 200.0 + AutosaveClock::kAtLeastEvery_s, 0.3);
+    EXPECT_NEAR(now, 200.0 + AutosaveClock::kAtLeastEverySeconds, 0.3);
 }
 
 TEST(Autosave, finds_what_a_killed_editor_left) {
