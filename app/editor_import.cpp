@@ -169,7 +169,10 @@ void apply_import_sheet(Editor& editor) {
     }
     proposal.clear_other_maps = used > 1;
     editor.document.material = apply_import(editor.document.material, proposal);
-    if (sheet.rename_material && !sheet.title.empty()) editor.document.material.name = sheet.title;
+    if (sheet.rename_material && !sheet.title.empty()) {
+        editor.document.material.name = sheet.title;
+        editor.document.material.source.clear();  // it spoke of the values that were here before
+    }
     log_line(editor, ui::Severity::Info,
              "Imported " + std::to_string(used) + (used == 1 ? " map." : " maps."));
 }

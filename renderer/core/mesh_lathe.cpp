@@ -22,6 +22,10 @@ double u_at(const LatheRange& range, double column) {
     return range.u_begin + (range.u_end - range.u_begin) * column / range.segments;
 }
 
+double texture_u(const LatheRange& range, double column) {
+    return 0.5 + (u_at(range, column) - 0.5) * range.repeats;
+}
+
 }  // namespace
 
 glm::dvec2 lathe_direction(double u) {
@@ -53,7 +57,8 @@ void append_lathe(Mesh& mesh, std::span<const ProfilePoint> profile, const Lathe
         ring_begin.push_back(std::uint32_t(mesh.vertices.size()));
         const bool pole = point.position.x == 0.0;
         for (std::uint32_t i = 0; i < columns + (pole ? 0 : 1); ++i)
-            mesh.vertices.push_back(revolve(point, u_at(range, i), u_at(range, pole ? i + 0.5 : double(i))));
+            mesh.vertices.push_back(
+                revolve(point, u_at(range, i), texture_u(range, pole ? i + 0.5 : double(i))));
     }
     for (std::size_t j = 0; j + 1 < profile.size(); ++j) {
         if (profile[j].position == profile[j + 1].position) continue;

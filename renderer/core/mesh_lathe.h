@@ -23,6 +23,9 @@ struct LatheRange {
     double u_begin = 0.0;
     double u_end = 1.0;
     int segments = 192;
+    /// How often a picture goes once around, its middle staying at u = ½: about the way around divided by the
+    /// way from v = 0 to 1, so that pictures keep their proportions.
+    int repeats = 2;
 };
 
 /// Appends the surface. Two following points at one position make a crease and no triangles; at a pole every
