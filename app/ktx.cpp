@@ -135,7 +135,7 @@ void put_format_descriptor(ByteWriter& out) {
     }
 }
 
-bool is_mip_chain(const BakedEnvironment& baked) {
+[[maybe_unused]] bool is_mip_chain(const BakedEnvironment& baked) {
     for (std::size_t k = 0; k < baked.levels.size(); ++k)
         if (baked.levels[k].cube.size != baked.levels[0].cube.size >> k) return false;
     return !baked.levels.empty() && baked.lights.empty();
