@@ -25,8 +25,8 @@ Image face_strip(const CubeMap& cube) {
     const std::size_t row = sizeof(glm::vec3) * std::size_t(cube.size);
     for (int face = 0; face < 6; ++face)
         for (int y = 0; y < cube.size; ++y)
-            std::memcpy(strip.bytes.data() + std::size_t(y * 6 + face) * row,
-                        cube.texels.data() + std::size_t(face * cube.size + y) * std::size_t(cube.size), row);
+            std::memcpy(strip.bytes.data() + (std::size_t(y) * 6 + face) * row,
+                        cube.texels.data() + (std::size_t(face) * cube.size + y) * cube.size, row);
     return strip;
 }
 
@@ -34,7 +34,7 @@ Image brdf_picture(const BrdfTable& table) {
     Image picture = make_image(table.size, table.size, 3, PixelType::F32);
     for (int y = 0; y < table.size; ++y)
         for (int x = 0; x < table.size; ++x) {
-            const glm::vec2 ab = table.ab[std::size_t(y * table.size + x)];
+            const glm::vec2 ab = table.ab[std::size_t(y) * table.size + x];
             set_texel(picture, x, y, 0, ab.x);
             set_texel(picture, x, y, 1, ab.y);
         }

@@ -83,7 +83,7 @@ public:
     std::string file_name(const std::string& pointer) const {
         const Json& found = value(pointer);
         if (!found.is_string()) fail(pointer, "is not a file name");
-        const std::string name = found.get<std::string>();
+        std::string name = found.get<std::string>();
         if (name.empty() || name == "." || name == ".." || name.find_first_of("/\\:") != std::string::npos)
             fail(pointer, "is not the plain name of a file beside bake.json");
         return name;
@@ -113,8 +113,8 @@ CubeMap load_strip(const Manifest& manifest, const std::string& key, const fs::p
     const std::size_t row = sizeof(glm::vec3) * std::size_t(size);
     for (int face = 0; face < 6; ++face)
         for (int y = 0; y < size; ++y)
-            std::memcpy(cube.texels.data() + std::size_t(face * size + y) * std::size_t(size),
-                        strip.bytes.data() + std::size_t(y * 6 + face) * row, row);
+            std::memcpy(cube.texels.data() + (std::size_t(face) * size + y) * size,
+                        strip.bytes.data() + (std::size_t(y) * 6 + face) * row, row);
     for (const glm::vec3& texel : cube.texels)
         for (int c = 0; c < 3; ++c)
             if (!std::isfinite(texel[c]) || texel[c] < 0.0f)
@@ -147,8 +147,8 @@ std::vector<ExtractedLight> load_lights(const Manifest& manifest) {
         const glm::vec3 direction = manifest.vector(key + "/direction", -1.001, 1.001);
         if (std::abs(glm::length(direction) - 1.0f) > 1e-3f)
             manifest.fail(key + "/direction", "does not have length 1");
-        constexpr double kLargest = 3.4e38;
-        lights.push_back({glm::normalize(direction), manifest.vector(key + "/irradiance", 0.0, kLargest),
+        constexpr double largest = 3.4e38;
+        lights.push_back({glm::normalize(direction), manifest.vector(key + "/irradiance", 0.0, largest),
                           float(manifest.number(key + "/angular_radius", 0.0, std::numbers::pi / 2.0))});
     }
     return lights;

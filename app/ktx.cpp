@@ -113,22 +113,22 @@ std::uint64_t level_bytes(const CubeMap& cube) {
 
 /// Khronos data format descriptor of four half floats, linear light with Rec. 709 primaries.
 void put_format_descriptor(ByteWriter& out) {
-    constexpr unsigned kSamples = 4;
-    constexpr unsigned kBlockBytes = 24 + 16 * kSamples;
-    out.put32(4 + kBlockBytes);
+    constexpr unsigned samples = 4;
+    constexpr unsigned block_bytes = 24 + 16 * samples;
+    out.put32(4 + block_bytes);
     out.put32(0);  // Khronos, basic format
     out.put16(2);  // version
-    out.put16(kBlockBytes);
+    out.put16(block_bytes);
     for (const unsigned field : {1, 1, 1, 0}) out.put8(field);  // RGBSDA, BT.709, linear, straight alpha
     out.put32(0);                                               // one texel a block
     out.put8(kTexelBytes);
     for (int plane = 1; plane < 8; ++plane) out.put8(0);
-    for (unsigned sample = 0; sample < kSamples; ++sample) {
-        constexpr unsigned kFloatSigned = 0xC0;
-        constexpr unsigned kAlpha = 15;
+    for (unsigned sample = 0; sample < samples; ++sample) {
+        constexpr unsigned float_signed = 0xC0;
+        constexpr unsigned alpha = 15;
         out.put16(16 * sample);
         out.put8(16 - 1);
-        out.put8(kFloatSigned | (sample == 3 ? kAlpha : sample));
+        out.put8(float_signed | (sample == 3 ? alpha : sample));
         out.put32(0);           // position
         out.put32(0xBF800000);  // −1
         out.put32(0x3F800000);  // +1
@@ -219,16 +219,15 @@ std::vector<std::byte> to_ktx1(const BakedEnvironment& baked, int exponent) {
         {text_value("KTXorientation", "S=r,T=d"), text_value("PatinaRoughness", roughness_list(baked)),
          text_value("PatinaScale", decimal(std::ldexp(1.0f, exponent))),
          text_value("sh", coefficient_lines(baked.irradiance, scale))});
-    constexpr std::uint32_t kHalfFloat = 0x140B;
-    constexpr std::uint32_t kRgba = 0x1908;
-    constexpr std::uint32_t kRgba16f = 0x881A;
+    constexpr std::uint32_t half_float = 0x140B;
+    constexpr std::uint32_t rgba = 0x1908;
+    constexpr std::uint32_t rgba16f = 0x881A;
     const auto base = std::uint32_t(baked.levels.front().cube.size);
     ByteWriter out;
     out.put_text("\xABKTX 11\xBB\r\n\x1A\n");
-    for (const std::uint32_t field :
-         {std::uint32_t{0x04030201}, kHalfFloat, std::uint32_t{2}, kRgba, kRgba16f, kRgba, base, base,
-          std::uint32_t{0}, std::uint32_t{0}, std::uint32_t{6}, std::uint32_t(baked.levels.size()),
-          std::uint32_t(pairs.size())})
+    for (const std::uint32_t field : {std::uint32_t{0x04030201}, half_float, std::uint32_t{2}, rgba, rgba16f,
+                                      rgba, base, base, std::uint32_t{0}, std::uint32_t{0}, std::uint32_t{6},
+                                      std::uint32_t(baked.levels.size()), std::uint32_t(pairs.size())})
         out.put32(field);
     out.put_bytes(pairs);
     for (const PrefilteredLevel& level : baked.levels) {
@@ -253,19 +252,19 @@ std::vector<std::byte> to_ktx2(const BakedEnvironment& baked, int exponent) {
     list.push_back(text_value("KTXwriter", "Patina " PATINA_VERSION));
     list.push_back(text_value("PatinaRoughness", roughness_list(baked)));
     const std::vector<std::byte> pairs = key_value_bytes(list);
-    constexpr std::uint32_t kR16G16B16A16Sfloat = 97;
-    constexpr std::uint32_t kHeaderBytes = 80;
-    constexpr std::uint32_t kLevelIndexBytes = 24;
-    constexpr std::uint32_t kDescriptorBytes = 92;
+    constexpr std::uint32_t vk_format = 97;
+    constexpr std::uint32_t header_bytes = 80;
+    constexpr std::uint32_t level_index_bytes = 24;
+    constexpr std::uint32_t descriptor_bytes = 92;
     const auto base = std::uint32_t(baked.levels.front().cube.size);
     const auto count = std::uint32_t(baked.levels.size());
-    const std::uint32_t descriptor_at = kHeaderBytes + kLevelIndexBytes * count;
-    const std::uint32_t pairs_at = descriptor_at + kDescriptorBytes;
+    const std::uint32_t descriptor_at = header_bytes + level_index_bytes * count;
+    const std::uint32_t pairs_at = descriptor_at + descriptor_bytes;
     ByteWriter out;
     out.put_text("\xABKTX 20\xBB\r\n\x1A\n");
-    for (const std::uint32_t field : {kR16G16B16A16Sfloat, std::uint32_t{2}, base, base, std::uint32_t{0},
-                                      std::uint32_t{0}, std::uint32_t{6}, count, std::uint32_t{0},
-                                      descriptor_at, kDescriptorBytes, pairs_at, std::uint32_t(pairs.size())})
+    for (const std::uint32_t field :
+         {vk_format, std::uint32_t{2}, base, base, std::uint32_t{0}, std::uint32_t{0}, std::uint32_t{6},
+          count, std::uint32_t{0}, descriptor_at, descriptor_bytes, pairs_at, std::uint32_t(pairs.size())})
         out.put32(field);
     out.put64(0);  // no supercompression data
     out.put64(0);

@@ -46,7 +46,7 @@ public:
     Image take() { return std::move(image_); }
 
     void draw(const Polyline& line) {
-        for (std::size_t i = 0; i < line.points.size(); ++i) bounds_add(line.points[i]);
+        for (const glm::dvec2& point : line.points) bounds_add(point);
         cover(line.color, 0.5 * line.width, [&](glm::dvec2 p) {
             double nearest = std::numeric_limits<double>::infinity();
             for (std::size_t i = 0; i + 1 < line.points.size(); ++i)
@@ -134,8 +134,8 @@ private:
 }  // namespace
 
 double plot_text_width(std::string_view text, double size) {
-    constexpr double kMeasuredAt = 64.0;  // pixels an em: rounding to whole pixels then matters little
-    return text_coverage(text, float(kMeasuredAt * kFontHeight)).width * size / kMeasuredAt;
+    constexpr double measured_at = 64.0;  // pixels an em: rounding to whole pixels then matters little
+    return text_coverage(text, float(measured_at * kFontHeight)).width * size / measured_at;
 }
 
 Image drawing_to_image(const PlotDrawing& drawing, double scale) {

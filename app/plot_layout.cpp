@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace patina {
 
@@ -73,7 +74,7 @@ std::vector<glm::dvec2> regular_corners(glm::dvec2 center, double radius, int co
 
 /// A white rim keeps markers apart from lines and from each other.
 void add_marker(PlotDrawing& drawing, glm::dvec2 at, const Style& style, const std::string& tip) {
-    constexpr double kUp = std::numbers::pi / 2.0;
+    constexpr double up = std::numbers::pi / 2.0;
     const auto polygon = [&](int count, double size, double angle) {
         drawing.shapes.push_back(
             {Polygon{regular_corners(at, size * kMarkerRadius, count, angle), style.color, kDataPaper, 1.0},
@@ -91,34 +92,33 @@ void add_marker(PlotDrawing& drawing, glm::dvec2 at, const Style& style, const s
             drawing.shapes.push_back({Disc{at, kMarkerRadius, style.color, kDataPaper, 1.0}, tip});
             break;
         case PlotMarker::Square:
-            polygon(4, 1.25, kUp / 2.0);
+            polygon(4, 1.25, up / 2.0);
             break;
         case PlotMarker::Diamond:
-            polygon(4, 1.35, kUp);
+            polygon(4, 1.35, up);
             break;
         case PlotMarker::Triangle:
-            polygon(3, 1.45, kUp);
+            polygon(3, 1.45, up);
             break;
         case PlotMarker::TriangleDown:
-            polygon(3, 1.45, -kUp);
+            polygon(3, 1.45, -up);
             break;
         case PlotMarker::Pentagon:
-            polygon(5, 1.18, kUp);
+            polygon(5, 1.18, up);
             break;
         case PlotMarker::Plus:
             strokes(0.0);
             break;
         case PlotMarker::Cross:
-            strokes(kUp / 2.0);
+            strokes(up / 2.0);
             break;
         case PlotMarker::None:
             break;
     }
 }
 
-void add_text(PlotDrawing& drawing, const std::string& text, glm::dvec2 baseline, double size,
-              PlotColor color, TextAnchor anchor = TextAnchor::Start) {
-    if (!text.empty()) drawing.shapes.push_back({PlotText{text, baseline, size, anchor, color}, ""});
+void add_text(PlotDrawing& drawing, PlotText text) {
+    if (!text.text.empty()) drawing.shapes.push_back({std::move(text), ""});
 }
 
 std::vector<std::string> wrapped(const std::string& text, double size, double width) {
@@ -128,7 +128,9 @@ std::vector<std::string> wrapped(const std::string& text, double size, double wi
     while (at < text.size()) {
         const std::size_t space = std::min(text.find(' ', at), text.size());
         const std::string word = text.substr(at, space - at);
-        const std::string longer = line.empty() ? word : line + " " + word;
+        std::string longer = line;
+        if (!longer.empty()) longer += ' ';
+        longer += word;
         if (!line.empty() && plot_text_width(longer, size) > width) {
             lines.push_back(line);
             line = word;
@@ -235,16 +237,19 @@ private:
                 const double x = glm::mix(data_.low.x, data_.high.x, prepared_.x.position(tick.value));
                 drawing_.shapes.push_back({Polyline{{{x, data_.low.y}, {x, data_.high.y}}, 1.0, color}, ""});
                 if (major)
-                    add_text(drawing_, tick.text, {x, data_.high.y + 18.0}, kSmallSize, kFaint,
-                             TextAnchor::Middle);
+                    add_text(drawing_,
+                             {tick.text, {x, data_.high.y + 18.0}, kSmallSize, TextAnchor::Middle, kFaint});
             }
             for (const PlotTick& tick : prepared_.y.ticks) {
                 if (tick.text.empty() == major) continue;
                 const double y = glm::mix(data_.high.y, data_.low.y, prepared_.y.position(tick.value));
                 drawing_.shapes.push_back({Polyline{{{data_.low.x, y}, {data_.high.x, y}}, 1.0, color}, ""});
                 if (major)
-                    add_text(drawing_, tick.text, {data_.low.x - 9.0, y + 0.36 * kSmallSize}, kSmallSize,
-                             kFaint, TextAnchor::End);
+                    add_text(drawing_, {tick.text,
+                                        {data_.low.x - 9.0, y + 0.36 * kSmallSize},
+                                        kSmallSize,
+                                        TextAnchor::End,
+                                        kFaint});
             }
         }
         drawing_.shapes.push_back(
@@ -257,8 +262,8 @@ private:
             if (!drawable(plot_.y, guide.y)) continue;
             const double y = glm::mix(data_.high.y, data_.low.y, prepared_.y.position(guide.y));
             add_dashed(drawing_, {data_.low.x, y}, {data_.high.x, y}, {{}, 1.2, kFaint}, {6.0, 4.0});
-            add_text(drawing_, guide.label, {data_.high.x - 6.0, y - 5.0}, kSmallSize, kFaint,
-                     TextAnchor::End);
+            add_text(drawing_,
+                     {guide.label, {data_.high.x - 6.0, y - 5.0}, kSmallSize, TextAnchor::End, kFaint});
             const double width = plot_text_width(guide.label, kSmallSize);
             taken_.push_back({{data_.high.x - 6.0 - width, y - 5.0 - kSmallSize}, {data_.high.x, y}});
         }
@@ -306,12 +311,12 @@ private:
 
     /// Beside a ring, where it covers least.
     void add_number(glm::dvec2 at, const std::string& text) {
-        constexpr std::array kDirectionsDeg{225.0, 180.0, 270.0, 135.0, 315.0, 90.0, 0.0, 45.0};
+        constexpr std::array directions_deg{225.0, 180.0, 270.0, 135.0, 315.0, 90.0, 0.0, 45.0};
         const glm::dvec2 half{0.5 * plot_text_width(text, kSmallSize) + 1.5, 0.5 * kSmallSize};
         Box best;
         double best_cost = 1e9;
-        for (std::size_t i = 0; i < kDirectionsDeg.size(); ++i) {
-            const double angle = std::numbers::pi / 180.0 * kDirectionsDeg[i];
+        for (std::size_t i = 0; i < directions_deg.size(); ++i) {
+            const double angle = std::numbers::pi / 180.0 * directions_deg[i];
             const glm::dvec2 direction{std::cos(angle), -std::sin(angle)};
             const glm::dvec2 center = at + direction * (kRingRadius + 2.0) + direction * half;
             const Box box{center - half, center + half};
@@ -321,8 +326,11 @@ private:
                 best = box;
             }
         }
-        add_text(drawing_, text, {0.5 * (best.low.x + best.high.x), best.high.y - 0.14 * kSmallSize},
-                 kSmallSize, kFront, TextAnchor::Middle);
+        add_text(drawing_, {text,
+                            {0.5 * (best.low.x + best.high.x), best.high.y - 0.14 * kSmallSize},
+                            kSmallSize,
+                            TextAnchor::Middle,
+                            kFront});
         taken_.push_back(best);
     }
     double crowding(const Box& box) const {
@@ -345,14 +353,15 @@ private:
 
     void draw_titles() {
         double y = kMargin + kTitleSize;
-        add_text(drawing_, plot_.title, {kMargin, y}, kTitleSize, kInk);
+        add_text(drawing_, {plot_.title, {kMargin, y}, kTitleSize, TextAnchor::Start, kInk});
         if (!plot_.subtitle.empty()) {
             y += kTextSize * kLineHeight + 2.0;
-            add_text(drawing_, plot_.subtitle, {kMargin, y}, kTextSize, kFaint);
+            add_text(drawing_, {plot_.subtitle, {kMargin, y}, kTextSize, TextAnchor::Start, kFaint});
         }
-        add_text(drawing_, plot_.y.title, {kMargin, data_.low.y - 13.0}, kTextSize, kInk);
-        add_text(drawing_, plot_.x.title, {data_.high.x, data_.high.y + 38.0}, kTextSize, kInk,
-                 TextAnchor::End);
+        add_text(drawing_,
+                 {plot_.y.title, {kMargin, data_.low.y - 13.0}, kTextSize, TextAnchor::Start, kInk});
+        add_text(drawing_,
+                 {plot_.x.title, {data_.high.x, data_.high.y + 38.0}, kTextSize, TextAnchor::End, kInk});
         title_right_ = kMargin + std::max(plot_text_width(plot_.title, kTitleSize),
                                           plot_text_width(plot_.subtitle, kTextSize));
         bottom_ = data_.high.y + 44.0;
@@ -369,7 +378,11 @@ private:
             if (style.line)
                 drawing_.shapes.push_back({Polyline{{{left, y}, {left + 26.0, y}}, 1.8, style.color}, ""});
             add_marker(drawing_, {left + 13.0, y}, style, "");
-            add_text(drawing_, plot_.series[i].name, {left + 36.0, y + 0.36 * kTextSize}, kTextSize, kInk);
+            add_text(drawing_, {plot_.series[i].name,
+                                {left + 36.0, y + 0.36 * kTextSize},
+                                kTextSize,
+                                TextAnchor::Start,
+                                kInk});
             right = std::max(right, left + 36.0 + plot_text_width(plot_.series[i].name, kTextSize));
             y += 0.5 * kTextSize * kLineHeight + 3.0;
         }
@@ -386,7 +399,7 @@ private:
         drawing_.shapes.push_back(
             {Disc{{at.x + 13.0, y - 0.36 * kTextSize}, kRingRadius, std::nullopt, kFront, 1.5}, ""});
         const std::string heading = "Pareto front: no other is lower in both";
-        add_text(drawing_, heading, {at.x + 36.0, y}, kTextSize, kInk);
+        add_text(drawing_, {heading, {at.x + 36.0, y}, kTextSize, TextAnchor::Start, kInk});
         right = std::max(right, at.x + 36.0 + plot_text_width(heading, kTextSize));
         y += 5.0;
         for (std::size_t i = 0; i < prepared_.front.size(); ++i) {
@@ -394,8 +407,9 @@ private:
             const PlotPoint& p = point(prepared_.front[i]);
             const std::string text =
                 name(prepared_.front[i].series, p) + "  (" + plot_number(p.x) + ", " + plot_number(p.y) + ")";
-            add_text(drawing_, std::to_string(i + 1), {at.x + 26.0, y}, kSmallSize, kFront, TextAnchor::End);
-            add_text(drawing_, text, {at.x + 36.0, y}, kSmallSize, kFaint);
+            add_text(drawing_,
+                     {std::to_string(i + 1), {at.x + 26.0, y}, kSmallSize, TextAnchor::End, kFront});
+            add_text(drawing_, {text, {at.x + 36.0, y}, kSmallSize, TextAnchor::Start, kFaint});
             right = std::max(right, at.x + 36.0 + plot_text_width(text, kSmallSize));
         }
         bottom_ = std::max(bottom_, y + 6.0);
@@ -407,7 +421,7 @@ private:
         for (const std::string& note : prepared_.notes)
             for (const std::string& line : wrapped(note, kSmallSize, drawing_.width - 2.0 * kMargin)) {
                 y += kSmallSize * kLineHeight;
-                add_text(drawing_, line, {kMargin, y}, kSmallSize, kFaint);
+                add_text(drawing_, {line, {kMargin, y}, kSmallSize, TextAnchor::Start, kFaint});
             }
         drawing_.height = std::ceil(y + kMargin - 4.0);
     }

@@ -14,9 +14,9 @@ constexpr double kPadding = 0.05;  ///< of the data's extent, on both sides
 constexpr int kMaxLabels = 9;      ///< on a logarithmic axis
 
 std::string superscript(int exponent) {
-    static constexpr std::array kDigits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    static constexpr std::array digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     std::string text = exponent < 0 ? "⁻" : "";
-    for (const char digit : std::to_string(std::abs(exponent))) text += kDigits[std::size_t(digit - '0')];
+    for (const char digit : std::to_string(std::abs(exponent))) text += digits[std::size_t(digit - '0')];
     return text;
 }
 

@@ -19,11 +19,11 @@ std::string number(double value) {
 }
 
 std::string color(PlotColor value) {
-    constexpr std::string_view kHex = "0123456789abcdef";
+    constexpr std::string_view hex = "0123456789abcdef";
     std::string text = "#";
     for (const std::uint8_t channel : {value.r, value.g, value.b}) {
-        text += kHex[channel >> 4];
-        text += kHex[channel & 15];
+        text += hex[channel >> 4];
+        text += hex[channel & 15];
     }
     return text;
 }
@@ -88,10 +88,10 @@ Element element(const Disc& disc) {
             ""};
 }
 Element element(const PlotText& text) {
-    constexpr std::array kAnchors{"start", "middle", "end"};
+    constexpr std::array anchors{"start", "middle", "end"};
     return {"text",
             " x=\"" + number(text.baseline.x) + "\" y=\"" + number(text.baseline.y) + "\" font-size=\"" +
-                number(text.size) + "\" text-anchor=\"" + kAnchors[std::size_t(text.anchor)] + "\" fill=\"" +
+                number(text.size) + "\" text-anchor=\"" + anchors[std::size_t(text.anchor)] + "\" fill=\"" +
                 color(text.color) + "\"",
             escaped(text.text)};
 }
