@@ -2,10 +2,12 @@
 
 #include "app/bake_files.h"
 #include "app/paths.h"
+#include "renderer/core/environment_io.h"
 #include "renderer/core/mesh_io.h"
 #include "ui/workspace.h"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 namespace patina {
@@ -32,12 +34,29 @@ EnvironmentSource builtin_environment_source() {
             .load = [find](const std::string& id) { return find(id)->make(kBuiltinEnvironmentWidth); }};
 }
 
-Environment load_environment_file(const std::string& id) {
-    const fs::path file = path_from_utf8(id);
-    const LoadedImage loaded = load_image(file);
-    Environment environment = make_environment(loaded.image, id, utf8_from_path(file.stem()));
-    environment.notes.insert(environment.notes.begin(), loaded.notes.begin(), loaded.notes.end());
-    return environment;
+EnvironmentSource blender_environment_source() {
+    const auto find = [](const std::string& id) {
+        std::optional<EnvironmentFile> found;
+        for (const EnvironmentFile& each : list_blender_studio_lights())
+            if (each.id == id) found = each;
+        return found;
+    };
+    return {.name = "blender",
+            .description = "The studio lights of an installed Blender",
+            .list =
+                [] {
+                    std::vector<EnvironmentItem> items;
+                    for (const EnvironmentFile& each : list_blender_studio_lights())
+                        items.push_back({each.id, each.title, "One of Blender's studio lights."});
+                    return items;
+                },
+            .accepts = [find](const std::string& id) { return id.starts_with("blender-") && find(id); },
+            .load =
+                [find](const std::string& id) {
+                    Environment environment = load_environment_file(find(id).value().file);
+                    environment.id = id;
+                    return environment;
+                }};
 }
 
 EnvironmentSource bake_environment_source() {
@@ -54,7 +73,7 @@ EnvironmentSource file_environment_source() {
             .description = "Equirectangular pictures: Radiance .hdr, OpenEXR .exr, or any other picture",
             .list = [] { return std::vector<EnvironmentItem>{}; },
             .accepts = [](const std::string& id) { return id.find_first_of("./\\") != std::string::npos; },
-            .load = [](const std::string& id) { return load_environment_file(id); }};
+            .load = [](const std::string& id) { return load_environment_file(path_from_utf8(id)); }};
 }
 
 std::string extension_of(const fs::path& file) {
@@ -85,8 +104,8 @@ std::string either(const std::vector<std::string>& names) {
 
 Registry builtin_parts() {
     Registry registry;
-    registry.environments = {builtin_environment_source(), bake_environment_source(),
-                             file_environment_source()};
+    registry.environments = {builtin_environment_source(), blender_environment_source(),
+                             bake_environment_source(), file_environment_source()};
     registry.image_importers = {
         {.name = "openimageio",
          .description = "Pictures through OpenImageIO",
