@@ -12,15 +12,16 @@ namespace fs = std::filesystem;
 
 std::vector<MapSource> map_sources(const Material& material, const fs::path& preset_file) {
     std::vector<MapSource> sources;
-    const auto add = [&](MapSlot slot, const std::string& map, MapKind kind, ColorSpace space) {
-        if (!map.empty()) sources.push_back({slot, map, resolve_map(preset_file, map), kind, space});
+    const auto add = [&](MapSlot slot, const std::string& map, ColorSpace space = ColorSpace::Linear) {
+        if (!map.empty())
+            sources.push_back({slot, map, resolve_map(preset_file, map), map_kind(slot), space});
     };
-    add(MapSlot::Albedo, material.albedo.map, MapKind::Color, material.albedo.color_space);
-    add(MapSlot::Roughness, material.roughness.map, MapKind::Data, ColorSpace::Linear);
-    add(MapSlot::Metallic, material.metallic.map, MapKind::Data, ColorSpace::Linear);
-    add(MapSlot::Ao, material.ao.map, MapKind::Data, ColorSpace::Linear);
-    add(MapSlot::Normal, material.normal.map, MapKind::Normal, ColorSpace::Linear);
-    add(MapSlot::Emission, material.emission.map, MapKind::Color, material.emission.color_space);
+    add(MapSlot::Albedo, material.albedo.map, material.albedo.color_space);
+    add(MapSlot::Roughness, material.roughness.map);
+    add(MapSlot::Metallic, material.metallic.map);
+    add(MapSlot::Ao, material.ao.map);
+    add(MapSlot::Normal, material.normal.map);
+    add(MapSlot::Emission, material.emission.map, material.emission.color_space);
     return sources;
 }
 
