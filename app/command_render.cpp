@@ -1,48 +1,18 @@
 // patina render and patina compare: presets under environments, to a picture.
 #include "app/commands.h"
-#include "app/console.h"
-#include "app/headless.h"
-#include "app/jobs.h"
+#include "app/comparison_file.h"
+#include "app/comparison_sheet.h"
 #include "app/paths.h"
-#include "app/scene_loader.h"
 #include "app/sheet.h"
+#include "app/studio.h"
+
+#include <stdexcept>
 
 namespace patina {
 
 namespace {
 
 bool wants_radiance(const std::string& output) { return path_from_utf8(output).extension() == ".exr"; }
-
-/// Everything a headless picture needs, in the order it must live.
-struct Studio {
-    HeadlessContext context;
-    Renderer renderer;
-    Jobs jobs{worker_count()};
-    ProgressLine progress;
-    SceneLoader loader;
-
-    Studio(const Registry& registry, const SceneOptions& options)
-        : loader(renderer, registry,
-                 {.parallel_for = jobs.parallel_for(),
-                  .cache = {.folder = cache_folder() / "ibl"},
-                  .allow_missing_maps = options.allow_missing_maps,
-                  .note =
-                      [this](const std::string& sentence) {
-                          progress.clear();
-                          say(sentence);
-                      },
-                  .progress = [this](const std::string& what,
-                                     float fraction) { progress.show(what, fraction); }}) {}
-
-    Image picture(const Scene& scene, RenderTarget& target, bool radiance) {
-        renderer.draw(scene, target);
-        return radiance ? renderer.read_radiance(target) : renderer.read_display(target);
-    }
-};
-
-ImageMetadata described(const std::string& what) {
-    return {{"Software", "Patina " PATINA_VERSION}, {"ImageDescription", what}};
-}
 
 }  // namespace
 
@@ -58,7 +28,29 @@ int run_render(const RenderArgs& args, const Registry& registry) {
     return 0;
 }
 
+namespace {
+
+int compare_file(const RenderArgs& args, const Registry& registry) {
+    const std::filesystem::path file = path_from_utf8(args.presets.front());
+    const ImageExporter& exporter = image_exporter(registry, path_from_utf8(args.output));
+    LoadedComparison loaded = load_comparison(file);
+    for (const std::string& note : loaded.notes) say(note);
+    require_own_settings(args.scene, args.presets.front());
+    Studio studio(registry, args.scene);
+    const Image sheet = draw_comparison_sheet(
+        studio, registry, loaded.comparison,
+        {.cell_px = args.scene.size_px, .radiance = wants_radiance(args.output), .scene = args.scene});
+    studio.progress.clear();
+    exporter.save(path_from_utf8(args.output), sheet, described(loaded.comparison.title));
+    say("wrote " + args.output);
+    return 0;
+}
+
+}  // namespace
+
 int run_compare(const RenderArgs& args, const Registry& registry) {
+    if (args.presets.size() == 1 && is_comparison_file(path_from_utf8(args.presets.front())))
+        return compare_file(args, registry);
     const ImageExporter& exporter = image_exporter(registry, path_from_utf8(args.output));
     const bool radiance = wants_radiance(args.output);
     Studio studio(registry, args.scene);

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #define STB_TRUETYPE_IMPLEMENTATION
 #define STBTT_STATIC
@@ -128,15 +129,16 @@ Image text_coverage(std::string_view text, float height_px) {
     return coverage;
 }
 
-Sheet::Sheet(int columns, int rows, glm::ivec2 cell_px, PixelType type) : cell_px_(cell_px) {
+Sheet::Sheet(int columns, int rows, glm::ivec2 cell_px, PixelType type, bool footer) : cell_px_(cell_px) {
     const int side = std::min(cell_px.x, cell_px.y);
     gap_px_ = std::max(4, side / 64);
     text_px_ = std::clamp(float(side) / 16.0f, 10.0f, 48.0f);
     column_title_px_ = int(std::ceil(text_px_ * 1.6f));
     row_title_px_ = column_title_px_;
     const std::int64_t width = gap_px_ + std::int64_t{columns} * (cell_px.x + gap_px_);
-    const std::int64_t height =
-        gap_px_ + column_title_px_ + std::int64_t{rows} * (cell_px.y + row_title_px_ + gap_px_);
+    const std::int64_t height = gap_px_ + column_title_px_ +
+                                std::int64_t{rows} * (cell_px.y + row_title_px_ + gap_px_) +
+                                (footer ? column_title_px_ : 0);
     if (width > kMaxImageSide || height > kMaxImageSide || width * height > kMaxImagePixels)
         throw std::runtime_error("the sheet would be " + std::to_string(width) + "x" +
                                  std::to_string(height) + " pixels; choose a smaller --size");
@@ -148,7 +150,7 @@ Sheet::Sheet(int columns, int rows, glm::ivec2 cell_px, PixelType type) : cell_p
         std::memcpy(image_.bytes.data() + at, image_.bytes.data(), pixel);
 }
 
-void Sheet::write(std::string_view text, glm::ivec2 top_left, int width_px) {
+int Sheet::write(std::string_view text, glm::ivec2 top_left, int width_px) {
     const Image coverage = text_coverage(text, text_px_);
     const bool linear = image_.type == PixelType::F32;
     for (int y = 0; y < coverage.height; ++y)
@@ -158,20 +160,49 @@ void Sheet::write(std::string_view text, glm::ivec2 top_left, int width_px) {
                 set_texel(image_, top_left.x + x, top_left.y + y, c,
                           linear ? srgb_to_linear(display) : display);
         }
+    return std::min(coverage.width, width_px);
+}
+
+glm::ivec2 Sheet::cell_corner(int column, int row) const {
+    return {gap_px_ + column * (cell_px_.x + gap_px_),
+            gap_px_ + column_title_px_ + row * (cell_px_.y + row_title_px_ + gap_px_) + row_title_px_};
 }
 
 void Sheet::set_column_title(int column, std::string_view title) {
     write(title, {gap_px_ + column * (cell_px_.x + gap_px_), gap_px_}, cell_px_.x);
 }
 
-void Sheet::set_row_title(int row, std::string_view title) {
-    const int top = gap_px_ + column_title_px_ + row * (cell_px_.y + row_title_px_ + gap_px_);
-    write(title, {gap_px_, top + (row_title_px_ - int(text_px_)) / 2}, image_.width - 2 * gap_px_);
+void Sheet::set_row_title(int row, std::string_view title, int columns) {
+    const int top = cell_corner(0, row).y - row_title_px_;
+    const std::int64_t width = std::int64_t{columns} * (cell_px_.x + gap_px_) - gap_px_;
+    write(title, {gap_px_, top + (row_title_px_ - int(text_px_)) / 2},
+          int(std::min<std::int64_t>(width, image_.width - 2 * gap_px_)));
+}
+
+void Sheet::set_cell_title(int column, int row, std::string_view title) {
+    const glm::ivec2 corner = cell_corner(column, row);
+    write(title, {corner.x, corner.y - row_title_px_ + (row_title_px_ - int(text_px_)) / 2}, cell_px_.x);
+}
+
+void Sheet::set_footer(std::string_view before, const Image& strip, std::string_view after) {
+    const int top = image_.height - column_title_px_;
+    const int height = int(text_px_);
+    int left = gap_px_;
+    left += write(before, {left, top}, image_.width - 2 * gap_px_) + gap_px_;
+    const int width = std::min(6 * height, image_.width - left - gap_px_);
+    const bool linear = image_.type == PixelType::F32;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const float value = texel(strip, x * strip.width / width, 0, c);
+                set_texel(image_, left + x, top + y, c, linear ? srgb_to_linear(value) : value);
+            }
+    left += std::max(width, 0) + gap_px_;
+    if (left < image_.width - gap_px_) write(after, {left, top}, image_.width - gap_px_ - left);
 }
 
 void Sheet::set_cell(int column, int row, const Image& picture) {
-    const int left = gap_px_ + column * (cell_px_.x + gap_px_);
-    const int top = gap_px_ + column_title_px_ + row * (cell_px_.y + row_title_px_ + gap_px_) + row_title_px_;
+    const auto [left, top] = std::pair(cell_corner(column, row).x, cell_corner(column, row).y);
     const std::size_t pixel = 3 * bytes_per_channel(image_.type);
     for (int y = 0; y < cell_px_.y; ++y)
         std::memcpy(image_.bytes.data() +

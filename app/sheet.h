@@ -18,16 +18,22 @@ Image text_coverage(std::string_view text, float height_px);
 class Sheet {
 public:
     /// cell_px: size of every picture. type: U8 for display pictures, F32 for radiance. Throws
-    /// std::runtime_error when the whole would exceed kMaxImagePixels.
-    Sheet(int columns, int rows, glm::ivec2 cell_px, PixelType type);
+    /// std::runtime_error when the whole would exceed kMaxImagePixels. footer: room for a line below.
+    Sheet(int columns, int rows, glm::ivec2 cell_px, PixelType type, bool footer = false);
     void set_column_title(int column, std::string_view title);
-    void set_row_title(int row, std::string_view title);
+    /// columns: over how many it may run.
+    void set_row_title(int row, std::string_view title, int columns = 1 << 16);
+    /// Above one cell, where the row's title leaves room.
+    void set_cell_title(int column, int row, std::string_view title);
+    /// Text, then a strip of colours (3 channels of U8, stretched to a line's height), then text.
+    void set_footer(std::string_view before, const Image& strip, std::string_view after);
     /// Precondition: 3 channels, of the sheet's type and cell size.
     void set_cell(int column, int row, const Image& picture);
     const Image& image() const { return image_; }
 
 private:
-    void write(std::string_view text, glm::ivec2 top_left, int width_px);
+    int write(std::string_view text, glm::ivec2 top_left, int width_px);  ///< gives the width used
+    glm::ivec2 cell_corner(int column, int row) const;
 
     glm::ivec2 cell_px_;
     int gap_px_ = 0;

@@ -17,11 +17,6 @@ constexpr float kNearest = 0.1f, kFarthest = 100.0f;
 
 }  // namespace
 
-float wrap_degrees(float degrees) {
-    const float wrapped = degrees - 360.0f * std::floor((degrees + 180.0f) / 360.0f);
-    return wrapped <= -180.0f ? wrapped + 360.0f : wrapped;
-}
-
 void orbit(Camera& camera, glm::vec2 moved) {
     camera.yaw_deg = wrap_degrees(camera.yaw_deg - kOrbitDegrees * moved.x);
     camera.pitch_deg = std::clamp(camera.pitch_deg + kOrbitDegrees * moved.y, -kMostPitch, kMostPitch);

@@ -1,6 +1,7 @@
 // Moving the camera and the light: mouse movements and steps to new values. Pure.
 #pragma once
 
+#include "renderer/core/angles.h"
 #include "renderer/core/camera.h"
 #include "renderer/core/view.h"
 
@@ -16,7 +17,6 @@ void pan(Camera& camera, glm::vec2 moved);
 /// notches of the wheel, > 0 moves closer.
 void zoom(Camera& camera, float notches);
 
-/// Into (−180, 180].
-float wrap_degrees(float degrees);
+using patina::wrap_degrees;
 
 }  // namespace patina::ui

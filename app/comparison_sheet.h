@@ -1,0 +1,51 @@
+// A comparison drawn without a window: scenes of its views, and the labelled sheet.
+#pragma once
+
+#include "app/args.h"
+#include "app/shoot.h"
+#include "app/studio.h"
+#include "renderer/core/comparison.h"
+
+#include <map>
+#include <string>
+
+namespace patina {
+
+/// Throws std::runtime_error when options say what a comparison file says itself (environments, camera, mesh,
+/// …): only the size and --set go with one.
+void require_own_settings(const SceneOptions& options, const std::string& file);
+
+/// What a comparison's views need, loaded once.
+class ComparisonScenes {
+public:
+    ComparisonScenes(Studio& studio, const Registry& registry, const Comparison& comparison,
+                     SceneOptions options);
+
+    Scene scene(ViewPlace place);
+    const LoadedPhoto& photo(const std::string& file);
+    Image radiance(const Scene& scene, glm::ivec2 size_px);
+    Image display(const Scene& scene, glm::ivec2 size_px);
+
+private:
+    RenderTarget& target(glm::ivec2 size_px);
+
+    Studio& studio_;
+    const Registry& registry_;
+    const Comparison& comparison_;
+    SceneOptions options_;
+    std::map<std::string, Scene> presets_;
+    std::map<std::string, LoadedPhoto> photos_;
+    std::map<std::pair<int, int>, TargetHandle> targets_;
+};
+
+struct ComparisonSheetOptions {
+    glm::ivec2 cell_px{512};
+    bool radiance = false;
+    SceneOptions scene;
+};
+/// Rows of presets, columns of lightings; after a lighting with a photo that photo in the view's frame and
+/// the difference. Further views follow, each with its own title.
+Image draw_comparison_sheet(Studio& studio, const Registry& registry, const Comparison& comparison,
+                            const ComparisonSheetOptions& options);
+
+}  // namespace patina

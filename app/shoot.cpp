@@ -1,0 +1,143 @@
+#include "app/shoot.h"
+
+#include "app/paths.h"
+#include "renderer/core/image_io.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace patina {
+
+namespace {
+
+constexpr float kPaper = 0.5f;  ///< display value where a photo does not reach
+
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+    std::array<char, 240> text{};
+    std::snprintf(text.data(), text.size(), format, values...);
+    return text.data();
+}
+
+/// The material with one parameter moved; nullopt where it cannot move that far.
+using Move = std::function<std::optional<Material>(const Material&, float offset)>;
+
+std::optional<Material> rougher(const Material& material, float offset) {
+    Material moved = material;
+    moved.roughness.value += offset;
+    if (moved.roughness.value < 0.0f || moved.roughness.value > 1.0f) return std::nullopt;
+    return moved;
+}
+/// offset: in stops.
+std::optional<Material> lighter(const Material& material, float offset) {
+    Material moved = material;
+    moved.albedo.value *= std::exp2(offset);
+    for (int c = 0; c < 3; ++c)
+        if (moved.albedo.value[c] > 1.0f) return std::nullopt;
+    return moved;
+}
+
+std::optional<Estimate> tried(const Image& photo, const std::optional<Region>& region, Scene scene,
+                              const ShootRadiance& radiance, const Move& move,
+                              std::span<const float> offsets) {
+    const Material material = scene.material;
+    std::vector<Trial> trials;
+    for (const float offset : offsets) {
+        const std::optional<Material> moved = move(material, offset);
+        if (!moved) continue;
+        scene.material = *moved;
+        const Residual residual = residual_of(photo, radiance(scene), region);
+        if (residual.pixels == 0) return std::nullopt;
+        trials.push_back({offset, residual.delta_e});
+    }
+    return estimate_offset(trials);
+}
+
+}  // namespace
+
+LoadedPhoto load_photo(const Registry& registry, const std::string& file) {
+    const std::filesystem::path path = path_from_utf8(file);
+    LoadedImage loaded = import_image(registry, path);
+    return {.linear = linear_photo(loaded.image),
+            .exif = exif_of(load_image_metadata(path)),
+            .notes = std::move(loaded.notes)};
+}
+
+std::vector<std::string> hints_for(const Image& photo, const std::optional<Region>& region,
+                                   const Scene& scene, const ShootRadiance& radiance) {
+    static constexpr std::array kRoughness{-0.3f, -0.2f, -0.1f, -0.05f, 0.0f, 0.05f, 0.1f, 0.2f, 0.3f};
+    static constexpr std::array kStops{-1.0f, -0.5f, -0.25f, 0.0f, 0.25f, 0.5f, 1.0f};
+    struct Hint {
+        float delta_e;
+        std::string text;
+    };
+    std::vector<Hint> hints;
+    const auto gain = [](const Estimate& e) {
+        return formatted(" (mean ΔE %.1f → about %.1f).", double(e.now), double(e.delta_e));
+    };
+    if (const auto e = tried(photo, region, scene, radiance, rougher, kRoughness); e && e->clear)
+        hints.push_back(
+            {e->delta_e, formatted("The highlights are %s than in the photo: try roughness about %.2f %s",
+                                   e->offset > 0.0f ? "narrower" : "wider", double(std::abs(e->offset)),
+                                   e->offset > 0.0f ? "higher" : "lower") +
+                             gain(*e)});
+    if (const auto e = tried(photo, region, scene, radiance, lighter, kStops); e && e->clear)
+        hints.push_back(
+            {e->delta_e,
+             formatted("The surface is %s than in the photo: try the base colour about %.0f %% %s",
+                       e->offset > 0.0f ? "darker" : "lighter",
+                       std::abs(std::exp2(double(e->offset)) - 1.0) * 100.0,
+                       e->offset > 0.0f ? "brighter" : "darker") +
+                 gain(*e)});
+    std::ranges::sort(hints, {}, &Hint::delta_e);
+    std::vector<std::string> sentences;
+    for (Hint& hint : hints) sentences.push_back(std::move(hint.text));
+    return sentences;
+}
+
+Image display_of_linear(const Image& linear) {
+    Image display = make_image(linear.width, linear.height, 3, PixelType::U8);
+    for (int y = 0; y < linear.height; ++y)
+        for (int x = 0; x < linear.width; ++x) {
+            const bool there = linear.channels < 4 || texel(linear, x, y, 3) > 0.5f;
+            for (int c = 0; c < 3; ++c)
+                set_texel(display, x, y, c, there ? linear_to_srgb(texel(linear, x, y, c)) : kPaper);
+        }
+    return display;
+}
+
+PhotoShot shoot_photo(const Photo& photo, const LoadedPhoto& loaded, const Scene& scene, const Image& render,
+                      const ShootRadiance& radiance, bool with_hints) {
+    PhotoShot shot{.title = photo_title(photo), .exif = loaded.exif};
+    shot.linear = photo_in_view(photo, loaded.linear, {render.width, render.height});
+    shot.picture = display_of_linear(shot.linear);
+    shot.residual = residual_of(shot.linear, render, photo.region);
+    shot.heat = heat_picture(delta_e_picture(shot.linear, render, photo.region), kHeatWhite);
+    if (with_hints && shot.residual.pixels > 0)
+        shot.hints = hints_for(shot.linear, photo.region, scene, radiance);
+    return shot;
+}
+
+std::string short_text(const Residual& residual) {
+    if (residual.pixels == 0) return "nothing compared";
+    return formatted("ΔE %.1f  ·  light %+.0f %%", double(residual.delta_e),
+                     double(residual.luminance_bias) * 100.0);
+}
+
+std::string preset_title(const ComparedPreset& preset, const Material& material) {
+    return preset.title.empty() ? material.name : preset.title;
+}
+std::string lighting_title(const Registry& registry, const Lighting& lighting) {
+    if (!lighting.title.empty()) return lighting.title;
+    std::string title = environment_title(registry, lighting.environment);
+    if (lighting.rotation_deg != 0.0f) title += formatted("  %.0f°", double(lighting.rotation_deg));
+    if (lighting.exposure_ev != 0.0f) title += formatted("  %+.1f EV", double(lighting.exposure_ev));
+    return title;
+}
+std::string photo_title(const Photo& photo) {
+    return photo.title.empty() ? utf8_from_path(path_from_utf8(photo.file).filename()) : photo.title;
+}
+
+}  // namespace patina

@@ -1,0 +1,58 @@
+// A view of a comparison drawn and held against its photo: pictures and numbers for sheets and reports.
+#pragma once
+
+#include "app/registry.h"
+#include "renderer/core/comparison.h"
+#include "renderer/core/photo.h"
+#include "renderer/renderer.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// A photo read from disk.
+struct LoadedPhoto {
+    Image linear;  ///< 3 channels of F32
+    CameraExif exif;
+    std::vector<std::string> notes;
+};
+LoadedPhoto load_photo(const Registry& registry, const std::string& file);
+
+/// Scene-linear radiance of a scene, exposure applied.
+using ShootRadiance = std::function<Image(const Scene&)>;
+
+struct PhotoShot {
+    std::string title;
+    CameraExif exif;
+    Image
+        picture;  ///< in the view's frame, balanced: 3 channels of U8, sRGB; mid-grey where it does not reach
+    Image linear;  ///< the same as 4 channels of F32
+    Image heat;    ///< ΔE2000 as a picture, white at kHeatWhite
+    Residual residual;
+    std::vector<std::string> hints;  ///< one sentence each, from computed trials
+};
+inline constexpr float kHeatWhite = 20.0f;
+
+/// The photo held against that view of the scene. with_hints: also draws the material with roughness and
+/// albedo moved, to say which way is better.
+PhotoShot shoot_photo(const Photo& photo, const LoadedPhoto& loaded, const Scene& scene, const Image& render,
+                      const ShootRadiance& radiance, bool with_hints);
+
+/// What moving roughness or albedo would gain, best first; empty where nothing clearly helps.
+std::vector<std::string> hints_for(const Image& photo_in_view, const std::optional<Region>& region,
+                                   const Scene& scene, const ShootRadiance& radiance);
+
+/// 8-bit sRGB of linear values clipped at 1; paper where a fourth channel is 0.
+Image display_of_linear(const Image& linear);
+
+/// "ΔE 3.2 · light +4 %".
+std::string short_text(const Residual& residual);
+
+std::string preset_title(const ComparedPreset& preset, const Material& material);
+std::string lighting_title(const Registry& registry, const Lighting& lighting);
+std::string photo_title(const Photo& photo);
+
+}  // namespace patina

@@ -1,0 +1,169 @@
+// Photos with a known truth: a render under gain, tint and perspective stands for the photo, and everything
+// that was done to it has to be found again.
+#include "app/shoot.h"
+#include "renderer/core/color_difference.h"
+#include "renderer/core/homography.h"
+#include "tests/gl/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace patina {
+namespace {
+
+using namespace test;
+
+constexpr glm::ivec2 kView{96, 96};
+constexpr glm::ivec2 kPhoto{400, 300};
+const glm::vec3 kTint{1.25f, 1.0f, 0.7f};
+constexpr float kGainEv = -0.8f;
+
+ShootRadiance radiance() {
+    return [](const Scene& scene) { return radiance_of(scene, kView, 4); };
+}
+
+/// A glossy red sphere under two lamps in a grey room: highlights and body colour both matter.
+Scene truth_scene() {
+    static const EnvironmentHandle light = [] {
+        const auto room = [](glm::vec3 d) {
+            const auto lamp = [&](glm::vec3 at, float power) {
+                return power * std::exp(40.0f * (glm::dot(d, glm::normalize(at)) - 1.0f));
+            };
+            return glm::vec3(0.3f + lamp({1, 1, 1}, 20.0f) + lamp({-1, 0.2f, 1}, 12.0f));
+        };
+        const Environment environment = make_panorama(room, 128);
+        const auto baked = bake_environment(environment, BakeSettings{}, {});
+        return renderer().upload_environment(environment, *baked);
+    }();
+    Scene scene = make_scene(light, sphere());
+    scene.material.albedo.value = {0.5f, 0.12f, 0.08f};
+    scene.material.roughness.value = 0.35f;
+    scene.view.background = Background::Plain;
+    return scene;
+}
+
+FourPoints corners_in_photo() { return {glm::dvec2{61, 22}, {342, 40}, {360, 281}, {38, 262}}; }
+FourPoints view_corners() { return {glm::dvec2{0, 0}, {kView.x, 0}, {kView.x, kView.y}, {0, kView.y}}; }
+
+/// What the camera saw: the render in perspective, darker and tinted, on a black table.
+Image synthetic_photo(const Image& render) {
+    Image photo = warped(render, *homography(corners_in_photo(), view_corners()), kPhoto);
+    Image result = make_image(kPhoto.x, kPhoto.y, 3, PixelType::F32);
+    for (int y = 0; y < kPhoto.y; ++y)
+        for (int x = 0; x < kPhoto.x; ++x)
+            for (int c = 0; c < 3; ++c)
+                set_texel(result, x, y, c, texel(photo, x, y, c) * kTint[c] * std::exp2(kGainEv));
+    return result;
+}
+
+/// The fit a careful hand makes: within half a pixel of the truth.
+Photo fitted() {
+    Photo photo{.file = "synthetic.exr", .fit = PhotoFit{}};
+    const FourPoints truth = corners_in_photo();
+    const glm::dvec2 slips[] = {{0.4, -0.3}, {-0.3, 0.4}, {0.2, 0.4}, {-0.4, -0.2}};
+    for (std::size_t i = 0; i < 4; ++i)
+        photo.fit->photo[i] = glm::vec2((truth[i] + slips[i]) / glm::dvec2(kPhoto));
+    photo.region = Region{0.3f, 0.3f, 0.7f, 0.7f};  // on the sphere, away from its edge
+    return photo;
+}
+
+struct Found {
+    Photo photo;
+    Image in_view;
+};
+Found found() {
+    static const Found result = [] {
+        const Image photo = synthetic_photo(radiance()(truth_scene()));
+        Found f{.photo = fitted()};
+        // The grey card: a photo of a card that reflects 18 % of the room's light has the same gain and tint.
+        const glm::vec3 card(0.18f);
+        const auto balance = balance_to(card * kTint * std::exp2(kGainEv), card);
+        f.photo.exposure_ev = balance->exposure_ev;
+        f.photo.white_balance = balance->white_balance;
+        f.in_view = photo_in_view(f.photo, photo, kView);
+        return f;
+    }();
+    return result;
+}
+
+float delta_e(const Material& material) {
+    Scene scene = truth_scene();
+    scene.material = material;
+    return residual_of(found().in_view, radiance()(scene), found().photo.region).delta_e;
+}
+
+TEST(PhotoTruth, the_fit_recovers_the_perspective_within_a_pixel) {
+    const auto to_photo = view_to_photo(found().photo, kPhoto, kView);
+    const auto truth = homography(view_corners(), corners_in_photo());
+    ASSERT_TRUE(to_photo && truth);
+    for (int y = 0; y <= kView.y; y += 12)
+        for (int x = 0; x <= kView.x; x += 12)
+            EXPECT_LT(glm::distance(mapped(*to_photo, {x, y}), mapped(*truth, {x, y})), 1.0);
+}
+
+TEST(PhotoTruth, the_card_gives_exposure_and_white_balance) {
+    const Found f = found();
+    const glm::vec3 restored =
+        kTint * std::exp2(kGainEv) * f.photo.white_balance * std::exp2(f.photo.exposure_ev);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(std::log2(restored[c]), 0.0f, 0.05f);
+}
+
+TEST(PhotoTruth, the_residual_is_small_at_the_truth_and_grows_with_roughness_and_albedo_away_from_it) {
+    const Material truth = truth_scene().material;
+    const float at_truth = delta_e(truth);
+    EXPECT_LT(at_truth, 0.6f);
+    for (const float direction : {-1.0f, 1.0f}) {
+        float before = at_truth;
+        for (const float step : {0.05f, 0.1f, 0.2f, 0.3f}) {
+            Material moved = truth;
+            moved.roughness.value += direction * step;
+            const float now = delta_e(moved);
+            EXPECT_GT(now, before) << "roughness " << moved.roughness.value;
+            before = now;
+        }
+        before = at_truth;
+        for (const float stops : {0.1f, 0.25f, 0.5f, 1.0f}) {
+            Material moved = truth;
+            moved.albedo.value *= std::exp2(direction * stops);
+            const float now = delta_e(moved);
+            EXPECT_GT(now, before) << "albedo " << moved.albedo.value.x;
+            before = now;
+        }
+    }
+}
+
+TEST(PhotoTruth, hints_lead_back_to_the_truth_and_say_nothing_there) {
+    Scene scene = truth_scene();
+    EXPECT_TRUE(hints_for(found().in_view, found().photo.region, scene, radiance()).empty());
+    scene.material.roughness.value = 0.2f;
+    const auto smooth = hints_for(found().in_view, found().photo.region, scene, radiance());
+    ASSERT_FALSE(smooth.empty());
+    EXPECT_TRUE(
+        smooth[0].starts_with("The highlights are narrower than in the photo: try roughness about 0.1"))
+        << smooth[0];
+    scene = truth_scene();
+    scene.material.albedo.value *= 2.0f;
+    const auto light = hints_for(found().in_view, found().photo.region, scene, radiance());
+    ASSERT_FALSE(light.empty());
+    EXPECT_TRUE(
+        light[0].starts_with("The surface is lighter than in the photo: try the base colour about 5") ||
+        light[0].starts_with("The surface is lighter than in the photo: try the base colour about 4"))
+        << light[0];
+}
+
+TEST(PhotoTruth, the_shot_carries_picture_numbers_and_heat) {
+    Scene scene = truth_scene();
+    scene.material.albedo.value = {0.1f, 0.4f, 0.1f};
+    const LoadedPhoto loaded{.linear = synthetic_photo(radiance()(truth_scene()))};
+    const PhotoShot shot = shoot_photo(found().photo, loaded, scene, radiance()(scene), radiance(), false);
+    EXPECT_EQ(shot.title, "synthetic.exr");
+    EXPECT_GT(shot.residual.delta_e, 10.0f);
+    EXPECT_EQ(shot.picture.channels, 3);
+    EXPECT_GT(texel(shot.heat, 48, 48, 0), 0.2f);
+    EXPECT_EQ(texel(shot.heat, 10, 48, 0), 0.0f);
+    EXPECT_NE(short_text(shot.residual).find("ΔE"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace patina
