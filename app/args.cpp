@@ -153,6 +153,21 @@ void add_render_and_compare(CLI::App& root, Args& args) {
     }
 }
 
+void add_report(CLI::App& root, Args& args) {
+    CLI::App* app = root.add_subcommand("report", "Write a comparison as a web page or a PDF document");
+    app->add_option("comparison", args.report.comparison, "A comparison file, as the editor saves it")
+        ->required()
+        ->type_name("SHEET.json");
+    app->add_option("-o,--output", args.report.output, "The report to write: .html (one file) or .pdf")
+        ->required()
+        ->type_name("FILE");
+    app->add_option("--size", args.report.picture_px, "Side of a picture in pixels (default 640)")
+        ->check(CLI::Range(32, 4096))
+        ->type_name("N");
+    app->add_flag("--no-hints", args.report.no_hints,
+                  "Do not compute what would bring the renders closer to the photos");
+}
+
 void add_bake(CLI::App& root, Args& args) {
     CLI::App* app =
         root.add_subcommand("bake", "Write the prefiltered light of an environment, for any program");
@@ -206,9 +221,9 @@ void sort_out_presets(RenderArgs& render) {
 }
 
 constexpr std::array kCommands{std::pair{"edit", Command::Edit},       std::pair{"render", Command::Render},
-                               std::pair{"compare", Command::Compare}, std::pair{"bake", Command::Bake},
-                               std::pair{"bench", Command::Bench},     std::pair{"check", Command::Check},
-                               std::pair{"list", Command::List}};
+                               std::pair{"compare", Command::Compare}, std::pair{"report", Command::Report},
+                               std::pair{"bake", Command::Bake},       std::pair{"bench", Command::Bench},
+                               std::pair{"check", Command::Check},     std::pair{"list", Command::List}};
 
 /// `patina gold.json` means `patina edit gold.json`.
 std::vector<std::string> with_default_command(std::vector<std::string> words) {
@@ -236,6 +251,7 @@ ParsedArgs parse_args(const std::vector<std::string>& words) {
     root.require_subcommand(1);
     add_edit(root, args);
     add_render_and_compare(root, args);
+    add_report(root, args);
     add_bake(root, args);
     add_bench(root, args);
     root.add_subcommand("check", "Validate presets and say what is wrong and where")

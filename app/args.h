@@ -36,6 +36,12 @@ struct RenderArgs {
     std::string output;
     SceneOptions scene;
 };
+struct ReportArgs {
+    std::string comparison;  ///< file
+    std::string output;      ///< .html or .pdf
+    int picture_px = 640;
+    bool no_hints = false;
+};
 struct BakeArgs {
     std::string environment;
     std::string output;
@@ -51,11 +57,12 @@ struct BenchArgs {
     bool quick = false;
 };
 
-enum class Command { Edit, Render, Compare, Bake, Bench, Check, List };
+enum class Command { Edit, Render, Compare, Report, Bake, Bench, Check, List };
 struct Args {
     Command command = Command::Edit;
     EditArgs edit;
     RenderArgs render;
+    ReportArgs report;
     BakeArgs bake;
     BenchArgs bench;
     std::vector<std::string> check;  ///< presets

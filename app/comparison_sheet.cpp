@@ -54,7 +54,7 @@ public:
           registry_(registry),
           comparison_(comparison),
           options_(options),
-          scenes_(studio, registry, comparison, options.scene),
+          scenes_(studio.renderer, studio.loader, registry, comparison, options.scene),
           plan_(planned(comparison)),
           sheet_(plan_.columns, plan_.rows, options.cell_px,
                  options.radiance ? PixelType::F32 : PixelType::U8, plan_.photos) {}
@@ -177,9 +177,13 @@ void require_own_settings(const SceneOptions& options, const std::string& file) 
         "only --size, --set and --allow-missing-maps go with it");
 }
 
-ComparisonScenes::ComparisonScenes(Studio& studio, const Registry& registry, const Comparison& comparison,
-                                   SceneOptions options)
-    : studio_(studio), registry_(registry), comparison_(comparison), options_(std::move(options)) {}
+ComparisonScenes::ComparisonScenes(Renderer& renderer, SceneLoader& loader, const Registry& registry,
+                                   const Comparison& comparison, SceneOptions options)
+    : renderer_(renderer),
+      loader_(loader),
+      registry_(registry),
+      comparison_(comparison),
+      options_(std::move(options)) {}
 
 Scene ComparisonScenes::scene(ViewPlace place) {
     const std::string& preset = preset_at(comparison_, place).preset;
@@ -194,9 +198,9 @@ Scene ComparisonScenes::scene(ViewPlace place) {
     options.camera = comparison_.camera;
     Scene scene = found != presets_.end()
                       ? found->second
-                      : presets_.emplace(preset, studio_.loader.scene(preset, options)).first->second;
+                      : presets_.emplace(preset, loader_.scene(preset, options)).first->second;
     const Lighting& light = lighting_at(comparison_, place);
-    scene.environment = studio_.loader.environment(light.environment);
+    scene.environment = loader_.environment(light.environment);
     scene.view = view_of(comparison_, light);
     return scene;
 }
@@ -209,15 +213,19 @@ const LoadedPhoto& ComparisonScenes::photo(const std::string& file) {
 
 RenderTarget& ComparisonScenes::target(glm::ivec2 size_px) {
     TargetHandle& handle = targets_[{size_px.x, size_px.y}];
-    if (!handle) handle = studio_.renderer.make_target(size_px);
+    if (!handle) handle = renderer_.make_target(size_px);
     return *handle;
 }
 
 Image ComparisonScenes::radiance(const Scene& scene, glm::ivec2 size_px) {
-    return studio_.picture(scene, target(size_px), true);
+    RenderTarget& to = target(size_px);
+    renderer_.draw(scene, to);
+    return renderer_.read_radiance(to);
 }
 Image ComparisonScenes::display(const Scene& scene, glm::ivec2 size_px) {
-    return studio_.picture(scene, target(size_px), false);
+    RenderTarget& to = target(size_px);
+    renderer_.draw(scene, to);
+    return renderer_.read_display(to);
 }
 
 Image draw_comparison_sheet(Studio& studio, const Registry& registry, const Comparison& comparison,

@@ -18,8 +18,8 @@ void require_own_settings(const SceneOptions& options, const std::string& file);
 /// What a comparison's views need, loaded once.
 class ComparisonScenes {
 public:
-    ComparisonScenes(Studio& studio, const Registry& registry, const Comparison& comparison,
-                     SceneOptions options);
+    ComparisonScenes(Renderer& renderer, SceneLoader& loader, const Registry& registry,
+                     const Comparison& comparison, SceneOptions options);
 
     Scene scene(ViewPlace place);
     const LoadedPhoto& photo(const std::string& file);
@@ -29,7 +29,8 @@ public:
 private:
     RenderTarget& target(glm::ivec2 size_px);
 
-    Studio& studio_;
+    Renderer& renderer_;
+    SceneLoader& loader_;
     const Registry& registry_;
     const Comparison& comparison_;
     SceneOptions options_;

@@ -19,6 +19,8 @@ int run(const patina::Args& args) {
             return patina::run_render(args.render, registry);
         case Command::Compare:
             return patina::run_compare(args.render, registry);
+        case Command::Report:
+            return patina::run_report(args.report, registry);
         case Command::Bake:
             return patina::run_bake(args.bake, registry);
         case Command::Bench:

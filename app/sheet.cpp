@@ -1,5 +1,6 @@
 #include "app/sheet.h"
 
+#include "app/utf8.h"
 #include "renderer/core/image_io.h"
 
 #include <algorithm>
@@ -36,28 +37,6 @@ namespace {
 // Display values of a dark neutral sheet: the surround does not tint the judgement of the pictures.
 constexpr float kPaper = 0.13f;
 constexpr float kInk = 0.85f;
-constexpr int kReplacement = 0xFFFD;
-
-/// The next code point of UTF-8 text, or U+FFFD for a byte that is none; advances text.
-int next_code_point(std::string_view& text) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const int lead = byte(0);
-    const std::size_t length = lead < 0x80 ? 1 : lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : lead >= 0xC0 ? 2 : 0;
-    if (length == 0 || length > text.size()) {
-        text.remove_prefix(1);
-        return kReplacement;
-    }
-    int code = length == 1 ? lead : lead & (0xFF >> (length + 1));
-    for (std::size_t i = 1; i < length; ++i) {
-        if ((byte(i) & 0xC0) != 0x80) {
-            text.remove_prefix(i);
-            return kReplacement;
-        }
-        code = code << 6 | (byte(i) & 0x3F);
-    }
-    text.remove_prefix(length);
-    return code;
-}
 
 const stbtt_fontinfo& label_font() {
     static const stbtt_fontinfo kFont = [] {

@@ -35,6 +35,7 @@ forbid 'ui knows only materials and renderer/core' '#include "(app|renderer/(ibl
 # Packages behind one door each.
 forbid 'only image_io may name OpenImageIO' '#include <OpenImageIO' $(sources app renderer ui materials -- core/image_io.cpp)
 forbid 'only mesh_io may name OpenMesh' '#include <OpenMesh' $(sources app renderer ui materials -- core/mesh_io.cpp)
+forbid 'only report_pdf may name libharu' '#include <hpdf' $(sources app renderer ui materials -- app/report_pdf.cpp)
 forbid 'no Qt' '#include <Q[A-Z]' $(sources app renderer ui materials)
 
 # Actions.

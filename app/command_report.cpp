@@ -1,0 +1,31 @@
+// patina report: a comparison as a web page or a PDF document to hand in.
+#include "app/commands.h"
+#include "app/comparison_file.h"
+#include "app/comparison_report.h"
+#include "app/paths.h"
+
+namespace patina {
+
+int run_report(const ReportArgs& args, const Registry& registry) {
+    const std::filesystem::path output = path_from_utf8(args.output);
+    const std::filesystem::path file = path_from_utf8(args.comparison);
+    require_report_name(output);
+    LoadedComparison loaded = load_comparison(file);
+    for (const std::string& note : loaded.notes) say(note);
+    Studio studio(registry, {});
+    ComparisonScenes scenes(studio.renderer, studio.loader, registry, loaded.comparison, {});
+    ComparisonReport making(scenes, registry, loaded.comparison,
+                            {.file = file,
+                             .output = output,
+                             .renderer = studio.context.description(),
+                             .picture_px = args.picture_px,
+                             .hints = !args.no_hints});
+    do studio.progress.show("drawing the views", float(making.done()) / float(making.views()));
+    while (making.step());
+    save_report(output, making.finish());
+    studio.progress.clear();
+    say("wrote " + args.output);
+    return 0;
+}
+
+}  // namespace patina

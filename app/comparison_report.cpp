@@ -1,0 +1,276 @@
+#include "app/comparison_report.h"
+
+#include "app/paths.h"
+#include "app/reconcile_load.h"
+#include "app/report_pdf.h"
+#include "materials/material_io.h"
+#include "materials/params.h"
+#include "renderer/core/file_io.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <span>
+#include <stdexcept>
+
+namespace patina {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kMapPx = 256;
+
+std::string number(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.4g", value);
+    return text.data();
+}
+std::string fixed(const char* format, double value) {
+    std::array<char, 48> text{};
+    std::snprintf(text.data(), text.size(), format, value);
+    return text.data();
+}
+
+/// As a shell takes it.
+std::string quoted(const std::string& word) {
+    const bool plain = !word.empty() && word.find_first_not_of(
+                                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                            "0123456789_-+=.,/:%@") == std::string::npos;
+    if (plain) return word;
+    std::string result = "'";
+    for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return result + "'";
+}
+
+std::vector<std::string> residual_cells(const Residual& r) {
+    if (r.pixels == 0) return {"–", "–", "–", "–", "0"};
+    return {fixed("%.2f", double(r.delta_e)), fixed("%.2f", double(r.delta_e_95)),
+            fixed("%+.1f %%", 100.0 * double(r.luminance_bias)),
+            fixed("%.1f %%", 100.0 * double(r.luminance_rms)), std::to_string(r.pixels)};
+}
+
+std::string values_text(const MaterialParam& param, const Material& material) {
+    std::string text;
+    for (const float value : values_of(param, material))
+        text += (text.empty() ? "" : ", ") + number(double(value));
+    return text;
+}
+
+std::string balance_text(const Photo& photo) {
+    return fixed("%+.2f EV", double(photo.exposure_ev)) + ", white balance " +
+           fixed("%.3f", double(photo.white_balance.x)) + " / " +
+           fixed("%.3f", double(photo.white_balance.y)) + " / " +
+           fixed("%.3f", double(photo.white_balance.z)) + (photo.fit ? ", fitted by four points" : "") +
+           (photo.region ? ", a region compared" : "");
+}
+
+}  // namespace
+
+ComparisonReport::ComparisonReport(ComparisonScenes& scenes, const Registry& registry, Comparison comparison,
+                                   ComparisonReportOptions options)
+    : scenes_(scenes),
+      registry_(registry),
+      comparison_(std::move(comparison)),
+      options_(std::move(options)),
+      places_(places_of(comparison_)) {}
+
+bool ComparisonReport::step() {
+    if (shots_.size() == places_.size()) return false;
+    const ViewPlace place = places_[shots_.size()];
+    const Scene scene = scenes_.scene(place);
+    const glm::ivec2 size(options_.picture_px);
+    const ComparedPreset& preset = preset_at(comparison_, place);
+    const Lighting& light = lighting_at(comparison_, place);
+    Shot shot{.place = place,
+              .material = preset_title(preset, scene.material),
+              .light = lighting_title(registry_, light),
+              .picture = scenes_.display(scene, size)};
+    if (std::ranges::none_of(materials_, [&](const auto& row) { return row.first == preset.preset; }))
+        materials_.emplace_back(preset.preset, scene.material);
+    if (light.photo) {
+        // Trials of the hints are drawn smaller: nine roughnesses and seven albedos of every view.
+        const glm::ivec2 small(options_.picture_px / 2);
+        const LoadedPhoto& photo = scenes_.photo(light.photo->file);
+        const auto radiance = [&](const Scene& trial) { return scenes_.radiance(trial, small); };
+        shot.photo = shoot_photo(*light.photo, photo, scene, scenes_.radiance(scene, size), {}, false);
+        if (options_.hints && shot.photo->residual.pixels > 0)
+            shot.photo->hints = hints_for(photo_in_view(*light.photo, photo.linear, small),
+                                          light.photo->region, scene, radiance);
+        shot.photo->linear = {};  // not shown
+    }
+    shots_.push_back(std::move(shot));
+    return shots_.size() < places_.size();
+}
+
+ReportSection ComparisonReport::sheet() const {
+    ReportSection section{.heading = "Side by side"};
+    if (!comparison_.remarks.empty()) section.paragraphs.push_back(comparison_.remarks);
+    section.picture_columns = std::max(1, int(comparison_.columns.size()));
+    if (comparison_.columns.empty()) section.picture_columns = grid_columns(shots_.size(), 1.5f, 1.0f);
+    section.picture_columns = std::min(section.picture_columns, 4);
+    for (const Shot& shot : shots_) {
+        if (shot.place.free < 0) {
+            if (shot.place.column == 0) section.pictures.push_back({shot.material, {}});
+            section.pictures.back().pictures.push_back({shot.light, shot.picture});
+        } else {
+            const bool first = shot.place.free == 0;
+            if (first) section.pictures.push_back({comparison_.rows.empty() ? "" : "Further views", {}});
+            section.pictures.back().pictures.push_back({shot.material + ", " + shot.light, shot.picture});
+        }
+    }
+    return section;
+}
+
+void ComparisonReport::add_photos(Report& report) const {
+    ReportSection section{.heading = "Against the photos"};
+    ReportTable table;
+    table.header = {"Material", "Light", "ΔE", "ΔE, 95 %", "Luminance", "Luminance rms", "Pixels"};
+    for (const Shot& shot : shots_) {
+        if (!shot.photo) continue;
+        const Photo& photo = *lighting_at(comparison_, shot.place).photo;
+        const std::string camera = describe(shot.photo->exif);
+        section.pictures.push_back(
+            {shot.material + ", " + shot.light,
+             {{shot.photo->title + (camera.empty() ? "" : " – " + camera), shot.photo->picture},
+              {"Render", shot.picture},
+              {"Difference, white is ΔE " + number(double(kHeatWhite)) + " and more", shot.photo->heat}}});
+        std::vector<std::string> cells{shot.material, shot.light};
+        std::ranges::copy(residual_cells(shot.photo->residual), std::back_inserter(cells));
+        table.rows.push_back(std::move(cells));
+        for (const std::string& hint : shot.photo->hints)
+            section.notes.push_back(shot.material + ", " + shot.light + ": " + hint);
+        section.notes.push_back(shot.photo->title + ": " + balance_text(photo) + ".");
+    }
+    if (table.rows.empty()) return;
+    std::vector<std::string> unique;
+    for (const std::string& note : section.notes)
+        if (std::ranges::find(unique, note) == unique.end()) unique.push_back(note);
+    section.notes = std::move(unique);
+    section.table = std::move(table);
+    section.notes.emplace_back(
+        "ΔE is CIEDE2000 between photo and render, values above white clipped; about 1 is just noticeable "
+        "side by "
+        "side. Luminance is how much brighter the render is than the photo on average.");
+    report.sections.push_back(std::move(section));
+}
+
+ReportSection ComparisonReport::material_section(const std::string& preset, const Material& material) const {
+    ReportSection section{.heading = "Material: " + material.name};
+    if (!material.source.empty()) section.paragraphs.push_back("Values from: " + material.source);
+    ReportTable table{.header = {"Parameter", "Value", "Map", "Size"}, .rows = {}};
+    const fs::path file = preset == "-" ? fs::path{} : find_preset(preset);
+    ReportPictureRow maps;
+    for (const MaterialParam& param : kMaterialParams) {
+        std::vector<std::string> cells{std::string(param.label), values_text(param, material), "", ""};
+        if (param.slot) {
+            cells[2] = *map_of(material, *param.slot).map;
+            for (const MapSource& source : map_sources(material, file)) {
+                if (source.slot != *param.slot) continue;
+                const LoadedImage loaded = load_map(registry_, source);
+                cells[3] = std::to_string(loaded.image.width) + " × " + std::to_string(loaded.image.height);
+                maps.pictures.push_back(
+                    {std::string(param.label) + ": " + cells[2],
+                     small_picture(loaded.image, kMapPx, loaded.image.type == PixelType::F32)});
+            }
+        }
+        table.rows.push_back(std::move(cells));
+    }
+    section.picture_columns = 5;
+    if (!maps.pictures.empty()) section.pictures.push_back(std::move(maps));
+    section.table = std::move(table);
+    if (!file.empty()) section.notes.push_back("Preset: " + utf8_from_path(file.filename()));
+    return section;
+}
+
+ReportSection ComparisonReport::lights() const {
+    ReportSection section{.heading = "Lights"};
+    ReportTable table{.header = {"Light", "Environment", "Turned", "Exposure", "Tone mapping", "About"},
+                      .rows = {}};
+    for (const Shot& shot : shots_) {
+        const Lighting& light = lighting_at(comparison_, shot.place);
+        std::string about;
+        for (const EnvironmentSource& source : registry_.environments)
+            for (const EnvironmentItem& item : source.list())
+                if (item.id == light.environment) about = item.description;
+        std::vector<std::string> cells{shot.light,
+                                       utf8_from_path(path_from_utf8(light.environment).filename()),
+                                       number(double(light.rotation_deg)) + "°",
+                                       fixed("%+.2f EV", double(light.exposure_ev)),
+                                       std::string(named(kTonemaps, light.tonemap).title),
+                                       about};
+        if (std::ranges::find(table.rows, cells) == table.rows.end()) table.rows.push_back(std::move(cells));
+    }
+    section.table = std::move(table);
+    return section;
+}
+
+std::string ComparisonReport::render_command(const Shot& shot) const {
+    const Lighting& light = lighting_at(comparison_, shot.place);
+    const Camera& camera = comparison_.camera;
+    const ComparedPreset& preset = preset_at(comparison_, shot.place);
+    std::string command = "patina render " + quoted(preset.preset) + " --mesh " + quoted(comparison_.mesh) +
+                          " --env " + quoted(light.environment);
+    if (light.rotation_deg != 0.0f) command += " --env-rotation " + number(double(light.rotation_deg));
+    if (light.exposure_ev != 0.0f) command += " --exposure " + number(double(light.exposure_ev));
+    command += " --tonemap " + std::string(named(kTonemaps, light.tonemap).id) + " --background " +
+               std::string(named(kBackgrounds, light.background).id) + " --shading " +
+               std::string(named(kShadings, comparison_.shading).id) + " --camera " +
+               number(double(camera.yaw_deg)) + "," + number(double(camera.pitch_deg)) + "," +
+               number(double(camera.distance));
+    const std::string side = std::to_string(options_.picture_px);
+    return command + " --size " + side + "x" + side + " -o " +
+           quoted(shot.place.free >= 0 ? "view-" + std::to_string(shot.place.free + 1) + ".png"
+                                       : "row-" + std::to_string(shot.place.row + 1) + "-column-" +
+                                             std::to_string(shot.place.column + 1) + ".png");
+}
+
+ReportSection ComparisonReport::making() const {
+    ReportSection section{.heading = "How it was made"};
+    const Shading shading = comparison_.shading;
+    section.table =
+        ReportTable{.header = {},
+                    .rows = {{"Program", "Patina " PATINA_VERSION},
+                             {"Drawn by", options_.renderer},
+                             {"Shading", std::string(named(kShadings, shading).title) + ": " +
+                                             std::string(named(kShadings, shading).tooltip)},
+                             {"Mesh", utf8_from_path(path_from_utf8(comparison_.mesh).filename())}}};
+    if (!options_.file.empty()) {
+        const std::string file = quoted(utf8_from_path(options_.file.filename()));
+        section.commands.push_back("patina report " + file + " -o " +
+                                   quoted(utf8_from_path(options_.output.filename())));
+        section.commands.push_back("patina compare " + file + " -o sheet.png");
+    }
+    for (const Shot& shot : shots_) section.commands.push_back(render_command(shot));
+    return section;
+}
+
+Report ComparisonReport::finish() {
+    Report report{.title = comparison_.title.empty() ? "Materials side by side" : comparison_.title,
+                  .author = comparison_.author,
+                  .made_with = "Made with Patina " PATINA_VERSION};
+    report.sections.push_back(sheet());
+    add_photos(report);
+    for (const auto& [preset, material] : materials_)
+        report.sections.push_back(material_section(preset, material));
+    report.sections.push_back(lights());
+    report.sections.push_back(making());
+    return report;
+}
+
+void require_report_name(const fs::path& file) {
+    if (file.extension() != ".html" && file.extension() != ".pdf")
+        throw std::runtime_error(utf8_from_path(file) + ": a report's name ends in .html or .pdf");
+}
+
+void save_report(const fs::path& file, const Report& report) {
+    require_report_name(file);
+    if (file.extension() == ".html") {
+        const std::string html = to_html(report);
+        return write_file(file, std::as_bytes(std::span(html)));
+    }
+    const std::vector<unsigned char> pdf = to_pdf(report);
+    write_file(file, std::as_bytes(std::span(pdf)));
+}
+
+}  // namespace patina

@@ -1,0 +1,63 @@
+// The report of a comparison: the sheet, photos with their differences, materials with their maps, lights,
+// and the commands that make it again.
+#pragma once
+
+#include "app/comparison_sheet.h"
+#include "app/report.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+struct ComparisonReportOptions {
+    std::filesystem::path file;    ///< the comparison's; empty: never saved
+    std::filesystem::path output;  ///< of the report; its ending chooses the format
+    std::string renderer;          ///< the GL renderer and version that drew it
+    int picture_px = 640;          ///< side of a picture
+    bool hints = true;             ///< compute what would bring the renders closer to the photos
+};
+
+/// Makes a report view by view, so that a window can go on in between.
+class ComparisonReport {
+public:
+    ComparisonReport(ComparisonScenes& scenes, const Registry& registry, Comparison comparison,
+                     ComparisonReportOptions options);
+
+    std::size_t views() const { return places_.size(); }
+    std::size_t done() const { return shots_.size(); }
+    /// Draws the next view; false when all are drawn.
+    bool step();
+    Report finish();
+
+private:
+    struct Shot {
+        ViewPlace place;
+        std::string material, light;
+        Image picture;
+        std::optional<PhotoShot> photo;
+    };
+    const Material& material_of(const std::string& preset) const;
+    ReportSection sheet() const;
+    void add_photos(Report& report) const;
+    ReportSection material_section(const std::string& preset, const Material& material) const;
+    ReportSection lights() const;
+    ReportSection making() const;
+    std::string render_command(const Shot& shot) const;
+
+    ComparisonScenes& scenes_;
+    const Registry& registry_;
+    Comparison comparison_;
+    ComparisonReportOptions options_;
+    std::vector<ViewPlace> places_;
+    std::vector<Shot> shots_;
+    std::vector<std::pair<std::string, Material>> materials_;  ///< by the comparison's name of the preset
+};
+
+/// Throws std::runtime_error where the name ends neither in .html nor in .pdf: before anything is computed.
+void require_report_name(const std::filesystem::path& file);
+/// By the file's ending; atomic.
+void save_report(const std::filesystem::path& file, const Report& report);
+
+}  // namespace patina

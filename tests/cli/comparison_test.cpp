@@ -1,0 +1,104 @@
+// Comparison files on the command line: sheets with photos, reports, and what is said when something is
+// wrong.
+#include "renderer/core/image_io.h"
+#include "tests/cli/program.h"
+
+#include <gtest/gtest.h>
+
+namespace patina {
+namespace {
+
+using test::Outcome;
+using test::Workspace;
+
+constexpr const char* kSheet = R"({"title": "Two <metals>", "author": "Ada",
+    "rows": [{"preset": "gold"}, {"preset": "mine.json"}],
+    "columns": [{"environment": "furnace", "tonemap": "none",
+                 "photo": {"file": "shot.png", "region": [[0.4, 0.4], [0.6, 0.6]]}},
+                {"environment": "furnace", "exposure_ev": -1}],
+    "views": [{"preset": "-", "environment": "furnace", "title": "Alone"}]})";
+
+void write_sheet(const Workspace& work) {
+    work.write("sheet.json", kSheet);
+    work.write("mine.json", R"({"name": "Mine", "albedo": {"value": [0.5, 0.5, 0.5]}})");
+    // The photo is what the first view shows, so nothing differs there.
+    const Outcome shot = work.run(
+        {"render", "gold", "-o", "shot.png", "--size", "48x48", "--env", "furnace", "--tonemap", "none"});
+    ASSERT_EQ(shot.exit_status, 0) << shot.errors;
+}
+
+TEST(CompareFile, draws_rows_columns_photos_and_further_views) {
+    const Workspace work;
+    write_sheet(work);
+    const Outcome outcome = work.run({"compare", "sheet.json", "-o", "sheet.png", "--size", "48x48"});
+    ASSERT_EQ(outcome.exit_status, 0) << outcome.errors;
+    const Image sheet = load_image(work.path("sheet.png")).image;
+    // Four columns (view, photo, difference, view) of 48 and gaps of 4; three rows with titles, and the
+    // legend.
+    EXPECT_EQ(sheet.width, 4 + 4 * (48 + 4));
+    EXPECT_EQ(sheet.height, 4 + 16 + 3 * (48 + 16 + 4) + 16);
+    const auto middle = [&](int column, int row) {
+        return texel(sheet, 4 + column * 52 + 24, 4 + 16 + row * 68 + 16 + 24, 1);
+    };
+    EXPECT_NEAR(middle(0, 0), middle(1, 0), 0.02f) << "the photo is the render";
+    EXPECT_LT(middle(2, 0), 0.05f) << "so their difference is black";
+    EXPECT_GT(middle(2, 1) + texel(sheet, 4 + 2 * 52 + 24, 4 + 16 + 68 + 16 + 24, 0), 0.2f)
+        << "grey is not gold";
+    EXPECT_LT(middle(3, 0), middle(0, 0) - 0.1f) << "a stop darker";
+}
+
+TEST(CompareFile, takes_only_the_size_besides) {
+    const Workspace work;
+    work.write("sheet.json", kSheet);
+    const Outcome outcome = work.run({"compare", "sheet.json", "-o", "sheet.png", "--env", "sky"});
+    EXPECT_EQ(outcome.exit_status, 1);
+    EXPECT_NE(outcome.errors.find("sheet.json: a comparison file sets"), std::string::npos) << outcome.errors;
+    EXPECT_EQ(work.files(), std::vector<std::string>{"sheet.json"});
+}
+
+TEST(CompareFile, a_missing_photo_is_named) {
+    const Workspace work;
+    work.write(
+        "sheet.json",
+        R"({"rows": [{"preset": "-"}], "columns": [{"environment": "furnace", "photo": {"file": "no.jpg"}}]})");
+    const Outcome outcome = work.run({"compare", "sheet.json", "-o", "sheet.png", "--size", "32x32"});
+    EXPECT_EQ(outcome.exit_status, 1);
+    EXPECT_NE(outcome.errors.find("no.jpg"), std::string::npos) << outcome.errors;
+    EXPECT_EQ(work.files(), std::vector<std::string>{"sheet.json"});
+}
+
+TEST(CompareFile, the_edited_preset_is_the_editors_alone) {
+    const Workspace work;
+    work.write("sheet.json", R"({"rows": [{"preset": "edited"}], "columns": [{"environment": "furnace"}]})");
+    const Outcome outcome = work.run({"compare", "sheet.json", "-o", "sheet.png", "--size", "32x32"});
+    EXPECT_EQ(outcome.exit_status, 1);
+    EXPECT_NE(outcome.errors.find("being edited"), std::string::npos) << outcome.errors;
+}
+
+TEST(ReportCommand, writes_a_page_and_a_pdf) {
+    const Workspace work;
+    write_sheet(work);
+    const Outcome page = work.run({"report", "sheet.json", "-o", "r.html", "--size", "48", "--no-hints"});
+    ASSERT_EQ(page.exit_status, 0) << page.errors;
+    const std::string html = work.read("r.html");
+    EXPECT_NE(html.find("<h1>Two &lt;metals&gt;</h1>"), std::string::npos);
+    for (const char* text :
+         {"Ada", "Alone", "Material: Gold", "Against the photos", "patina report sheet.json -o r.html",
+          "patina render gold --mesh sphere --env furnace"})
+        EXPECT_NE(html.find(text), std::string::npos) << text;
+    const Outcome document = work.run({"report", "sheet.json", "-o", "r.pdf", "--size", "48", "--no-hints"});
+    ASSERT_EQ(document.exit_status, 0) << document.errors;
+    EXPECT_TRUE(work.read("r.pdf").starts_with("%PDF-"));
+}
+
+TEST(ReportCommand, says_what_it_can_write_before_it_works) {
+    const Workspace work;
+    work.write("sheet.json", kSheet);
+    const Outcome outcome = work.run({"report", "sheet.json", "-o", "r.doc"});
+    EXPECT_EQ(outcome.exit_status, 1);
+    EXPECT_NE(outcome.errors.find(".html or .pdf"), std::string::npos) << outcome.errors;
+    EXPECT_EQ(work.run({"report", "sheet.json"}).exit_status, 2);
+}
+
+}  // namespace
+}  // namespace patina
