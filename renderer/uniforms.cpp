@@ -13,9 +13,6 @@ namespace {
 using glm::vec3;
 using glm::vec4;
 
-/// Roughness at which the environment is shown out of focus.
-constexpr float kBackdropRoughness = 0.35f;
-
 float exposure_factor(const View& view) { return std::exp2(std::clamp(view.exposure_ev, -64.0f, 64.0f)); }
 
 void set_camera(blocks::FrameBlock& block, const Camera& camera, glm::ivec2 size) {

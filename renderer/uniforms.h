@@ -14,6 +14,9 @@
 
 namespace patina {
 
+/// Roughness at which the environment is shown out of focus.
+inline constexpr float kBackdropRoughness = 0.35f;
+
 /// What the frame's rows need to know of the light's textures; scales undo how they are stored.
 struct LightLayout {
     float panorama_scale = 1.0f;

@@ -219,7 +219,9 @@ std::optional<BakedEnvironment> bake_environment(const Environment& environment,
     const double extract_ms = stopwatch.lap_ms();
 
     const RadianceView view = settings.extract_lights ? extraction.residual : view_of(environment);
-    std::optional<BakedEnvironment> baked = transform_levels(view, statistics, smooth, {}, progress);
+    std::optional<BakedEnvironment> baked{BakedEnvironment{}};
+    if (settings.irradiance || !smooth.roughness.empty())
+        baked = transform_levels(view, statistics, smooth, {.irradiance = settings.irradiance}, progress);
     if (!baked) return std::nullopt;
     if (!sharp.roughness.empty() &&
         !add_sharp_levels({environment, statistics, extraction}, sharp, progress, *baked))

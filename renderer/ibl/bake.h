@@ -57,7 +57,7 @@ struct BakeTimings {
 
 struct BakedEnvironment {
     std::vector<PrefilteredLevel> levels;  ///< ascending roughness, in the source's radiance units
-    CubeMap irradiance;                    ///< E/π
+    CubeMap irradiance;                    ///< E/π; empty where it was not asked for
     std::vector<ExtractedLight> lights;    ///< empty where none was taken out
     std::vector<std::string> notes;
     BakeTimings timings;  ///< not stored by the cache
@@ -76,6 +76,7 @@ struct BakeSettings {
     std::vector<int> face_sizes;      ///< of each level, instead; empty: chosen by roughness
     bool extract_lights = false;      ///< compact bright sources leave the map for BakedEnvironment::lights,
                                       ///< which the renderer must then shade; otherwise levels hold all light
+    bool irradiance = true;
     bool operator==(const BakeSettings&) const = default;
 };
 

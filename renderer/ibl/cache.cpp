@@ -26,6 +26,7 @@ constexpr std::array<char, 8> kMagic = {'P', 'a', 't', 'i', 'n', 'a', 'I', 'B'};
 constexpr std::uint32_t kFormat = 2;
 constexpr std::uint32_t kByteOrder = 0x01020304;
 constexpr std::uint32_t kMaxCount = 4096;  ///< levels, or lights, in one entry
+constexpr std::size_t kMostLevels = 64;    ///< an entry that would grow beyond starts anew
 constexpr std::uint32_t kMaxNoteBytes = 1 << 20;
 constexpr std::uint32_t kMaxFace = 8192;
 constexpr std::size_t kKeyLength = 32;
@@ -186,6 +187,12 @@ void trim(const BakeCache& cache, const fs::path& keep) {
     }
 }
 
+const PrefilteredLevel* find_level(const BakedEnvironment& baked, float roughness) {
+    for (const PrefilteredLevel& level : baked.levels)
+        if (level.roughness == roughness) return &level;
+    return nullptr;
+}
+
 std::string cannot_keep(const BakeCache& cache, const std::string& why) {
     return "The baked light could not be kept in " + cache.folder.string() + " (" + why +
            "); it will be computed again next time.";
@@ -198,7 +205,9 @@ std::string bake_key(const Environment& environment, const BakeSettings& setting
         std::uint64_t(kBakerVersion),          environment.content_hash,
         std::uint64_t(environment.width),      std::uint64_t(environment.height),
         std::uint64_t(settings.max_face_size), std::uint64_t(settings.extract_lights)};
-    for (const float roughness : settings.roughness) words.push_back(std::bit_cast<std::uint32_t>(roughness));
+    if (!settings.face_sizes.empty())
+        for (const float roughness : settings.roughness)
+            words.push_back(std::bit_cast<std::uint32_t>(roughness));
     for (const int size : settings.face_sizes) words.push_back(std::uint64_t(size) << 32);
     const std::size_t bytes = words.size() * sizeof(words[0]);
     return hex(hash_of(words.data(), bytes, 1)) + hex(hash_of(words.data(), bytes, 2));
@@ -276,17 +285,62 @@ std::string save_baked(const BakeCache& cache, const std::string& key, const Bak
     return {};
 }
 
+std::optional<BakedEnvironment> selected(const BakedEnvironment& entry, const BakeSettings& settings) {
+    BakedEnvironment result{.irradiance = {}, .lights = entry.lights, .notes = entry.notes};
+    if (settings.irradiance) {
+        if (entry.irradiance.size == 0) return std::nullopt;
+        result.irradiance = entry.irradiance;
+    }
+    for (const float roughness : settings.roughness) {
+        const PrefilteredLevel* level = find_level(entry, roughness);
+        if (!level) return std::nullopt;
+        result.levels.push_back(*level);
+    }
+    return result;
+}
+
+BakeSettings lacking(const BakedEnvironment& entry, const BakeSettings& settings) {
+    if (!settings.face_sizes.empty()) return settings;
+    BakeSettings rest = settings;
+    std::erase_if(rest.roughness, [&](float roughness) { return find_level(entry, roughness) != nullptr; });
+    rest.irradiance = settings.irradiance && entry.irradiance.size == 0;
+    return rest;
+}
+
+BakedEnvironment merged(const BakedEnvironment& entry, const BakedEnvironment& added) {
+    BakedEnvironment both = added;
+    if (both.irradiance.size == 0) both.irradiance = entry.irradiance;
+    if (both.lights.empty()) both.lights = entry.lights;
+    for (const std::string& note : entry.notes)
+        if (std::find(both.notes.begin(), both.notes.end(), note) == both.notes.end())
+            both.notes.push_back(note);
+    for (const PrefilteredLevel& level : entry.levels)
+        if (!find_level(added, level.roughness)) both.levels.push_back(level);
+    std::stable_sort(both.levels.begin(), both.levels.end(),
+                     [](const auto& a, const auto& b) { return a.roughness < b.roughness; });
+    return both;
+}
+
 std::optional<CachedBake> cached_bake(const Environment& environment, const BakeSettings& settings,
                                       const BakeControl& control, const BakeCache& cache) {
+    if (settings.roughness.empty() && !settings.irradiance) return CachedBake{.from_disk = true, .note = {}};
     const std::string key = bake_key(environment, settings);
-    if (std::optional<BakedEnvironment> found = load_baked(cache, key)) {
+    const BakedEnvironment entry = load_baked(cache, key).value_or(BakedEnvironment{});
+    if (std::optional<BakedEnvironment> found = selected(entry, settings)) {
         control.progress(1.0f);
-        return CachedBake{std::move(*found), true, {}};
+        return CachedBake{.baked = std::move(*found), .from_disk = true, .note = {}};
     }
-    std::optional<BakedEnvironment> baked = bake_environment(environment, settings, control);
+    const BakeSettings rest = lacking(entry, settings);
+    const std::optional<BakedEnvironment> baked = bake_environment(environment, rest, control);
     if (!baked) return std::nullopt;
-    std::string note = save_baked(cache, key, *baked);
-    return CachedBake{std::move(*baked), false, std::move(note)};
+    BakedEnvironment whole = merged(entry, *baked);
+    std::string note = save_baked(cache, key, whole.levels.size() <= kMostLevels ? whole : *baked);
+    CachedBake result{.levels_baked = int(rest.roughness.size()),
+                      .irradiance_baked = rest.irradiance,
+                      .note = std::move(note)};
+    result.baked = settings.face_sizes.empty() ? *selected(whole, settings) : *baked;
+    result.baked.timings = baked->timings;
+    return result;
 }
 
 }  // namespace patina

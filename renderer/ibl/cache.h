@@ -15,7 +15,9 @@ struct BakeCache {
     std::uint64_t max_bytes = std::uint64_t{512} << 20;  ///< oldest entries are removed beyond this
 };
 
-/// Key over the environment's content hash, the settings and the baker's version.
+/// Key over the environment's content hash, the settings and the baker's version. Which levels are asked for
+/// and whether irradiance is, does not enter (unless their sizes are given): one entry holds what was ever
+/// baked of an environment, and grows.
 std::string bake_key(const Environment& environment, const BakeSettings& settings);
 
 /// nullopt when absent, truncated, foreign, of another version or with a wrong checksum: then bake again.
@@ -25,12 +27,22 @@ std::optional<BakedEnvironment> load_baked(const BakeCache& cache, const std::st
 /// else empty).
 std::string save_baked(const BakeCache& cache, const std::string& key, const BakedEnvironment& baked);
 
+/// What an entry holds of the settings' levels and irradiance, nothing else; nullopt if anything is missing.
+std::optional<BakedEnvironment> selected(const BakedEnvironment& entry, const BakeSettings& settings);
+/// The settings of what an entry lacks.
+BakeSettings lacking(const BakedEnvironment& entry, const BakeSettings& settings);
+/// What either holds; where both hold a level, added's. Precondition: the same environment and settings but
+/// for what was asked for.
+BakedEnvironment merged(const BakedEnvironment& entry, const BakedEnvironment& added);
+
 struct CachedBake {
     BakedEnvironment baked;
-    bool from_disk = false;
+    bool from_disk = false;  ///< nothing had to be baked
+    int levels_baked = 0;
+    bool irradiance_baked = false;
     std::string note;  ///< why the result could not be kept, if so
 };
-/// Load, or bake and save. nullopt only when stopped.
+/// Load, or bake what is not there and save. nullopt only when stopped.
 std::optional<CachedBake> cached_bake(const Environment& environment, const BakeSettings& settings,
                                       const BakeControl& control, const BakeCache& cache);
 

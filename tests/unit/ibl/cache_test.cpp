@@ -177,13 +177,21 @@ TEST(BakeCache, serves_many_writers_and_readers_at_once) {
 
 TEST(BakeCache, keys_differ_with_content_and_settings) {
     const Environment a = noise_panorama(8, 4, 1), b = noise_panorama(8, 4, 2);
-    BakeSettings other;
-    other.roughness.pop_back();
+    BakeSettings fewer;
+    fewer.roughness.pop_back();
+    fewer.irradiance = false;
+    BakeSettings sized;
+    sized.face_sizes.assign(sized.roughness.size(), 8);
+    BakeSettings sized_fewer = sized;
+    sized_fewer.face_sizes.pop_back();
+    sized_fewer.roughness.pop_back();
     BakeSettings smaller;
     smaller.max_face_size = 64;
     EXPECT_EQ(bake_key(a, {}), bake_key(a, {}));
     EXPECT_NE(bake_key(a, {}), bake_key(b, {}));
-    EXPECT_NE(bake_key(a, {}), bake_key(a, other));
+    EXPECT_EQ(bake_key(a, {}), bake_key(a, fewer));
+    EXPECT_NE(bake_key(a, {}), bake_key(a, sized));
+    EXPECT_NE(bake_key(a, sized), bake_key(a, sized_fewer));
     EXPECT_NE(bake_key(a, {}), bake_key(a, smaller));
     EXPECT_EQ(bake_key(a, {}).size(), 32u);
 }
@@ -206,6 +214,67 @@ TEST(BakeCache, bakes_once_then_reads) {
     ASSERT_TRUE(third);
     EXPECT_FALSE(third->from_disk);
     expect_same(first->baked, third->baked);
+}
+
+TEST(BakeCache, serves_fewer_levels_from_an_entry_with_more) {
+    const ScratchFolder scratch;
+    const BakeCache cache{scratch.path()};
+    const Environment environment = noise_panorama(16, 8, 3);
+    BakeSettings all;
+    all.roughness = {0.2f, 0.5f, 0.8f};
+    all.max_face_size = 16;
+    BakeSettings one = all;
+    one.roughness = {0.5f};
+    one.irradiance = false;
+    const auto whole = cached_bake(environment, all, {}, cache);
+    const auto part = cached_bake(environment, one, {}, cache);
+    ASSERT_TRUE(whole && part);
+    EXPECT_TRUE(part->from_disk);
+    EXPECT_EQ(part->levels_baked, 0);
+    ASSERT_EQ(part->baked.levels.size(), 1u);
+    EXPECT_EQ(part->baked.levels[0].roughness, 0.5f);
+    EXPECT_EQ(part->baked.levels[0].cube.texels, whole->baked.levels[1].cube.texels);
+    EXPECT_EQ(part->baked.irradiance.size, 0);
+}
+
+TEST(BakeCache, bakes_only_what_an_entry_lacks_and_adds_it) {
+    const ScratchFolder scratch;
+    const BakeCache cache{scratch.path()};
+    const Environment environment = noise_panorama(16, 8, 3);
+    BakeSettings one, wider;
+    one.roughness = {0.5f};
+    one.irradiance = false;
+    wider.roughness = {0.2f, 0.5f, 0.8f};
+    one.max_face_size = wider.max_face_size = 16;
+    const auto first = cached_bake(environment, one, {}, cache);
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->levels_baked, 1);
+    EXPECT_FALSE(first->irradiance_baked);
+    EXPECT_EQ(first->baked.irradiance.size, 0);
+    const auto second = cached_bake(environment, wider, {}, cache);
+    ASSERT_TRUE(second);
+    EXPECT_FALSE(second->from_disk);
+    EXPECT_EQ(second->levels_baked, 2);
+    EXPECT_TRUE(second->irradiance_baked);
+    ASSERT_EQ(second->baked.levels.size(), 3u);
+    EXPECT_EQ(second->baked.levels[1].cube.texels, first->baked.levels[0].cube.texels);
+    EXPECT_EQ(files_in(scratch.path()).size(), 1u);
+    const auto third = cached_bake(environment, wider, {}, cache);
+    ASSERT_TRUE(third);
+    EXPECT_TRUE(third->from_disk);
+    expect_same(second->baked, third->baked);
+}
+
+TEST(BakeCache, bakes_and_keeps_nothing_where_nothing_is_asked_for) {
+    const ScratchFolder scratch;
+    BakeSettings nothing;
+    nothing.roughness.clear();
+    nothing.irradiance = false;
+    const auto result = cached_bake(noise_panorama(16, 8, 3), nothing, {}, {scratch.path()});
+    ASSERT_TRUE(result);
+    EXPECT_TRUE(result->baked.levels.empty());
+    EXPECT_EQ(result->baked.irradiance.size, 0);
+    EXPECT_TRUE(files_in(scratch.path()).empty());
 }
 
 TEST(BakeCache, keeps_nothing_of_a_stopped_bake) {

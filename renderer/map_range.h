@@ -1,0 +1,31 @@
+// Which numbers a map holds: what a material with that map can become, without looking at every texel again.
+// Pure.
+#pragma once
+
+#include "renderer/map_levels.h"
+
+#include <array>
+#include <optional>
+
+namespace patina {
+
+struct ValueRange {
+    float low = 0.0f, high = 1.0f;
+    bool is_single() const { return low == high; }
+    bool operator==(const ValueRange&) const = default;
+};
+
+/// Of what the shader samples in red, green, blue and alpha: any filter stays within.
+using ChannelRanges = std::array<ValueRange, 4>;
+
+/// Over all levels, because those of normal maps hold in alpha what their averages lost. Grey is the same in
+/// red, green and blue.
+ChannelRanges channel_ranges(const MapLevels& map);
+
+/// Of each slot; none where no map is bound.
+using MapRanges = std::array<std::optional<ChannelRanges>, kMapSlots>;
+
+/// value · (invert ? 1 − map : map), clamped to 0…1 as the shader does; the value alone without a map.
+ValueRange scalar_range(const ScalarSlot& slot, const std::optional<ChannelRanges>& map);
+
+}  // namespace patina
