@@ -206,6 +206,10 @@ void add_bench(CLI::App& root, Args& args) {
     app->add_option("-o,--output", args.bench.output, "Folder for the results (default bench-results)")
         ->type_name("DIR");
     app->add_flag("--quick", args.bench.quick, "Fewer repetitions");
+    app->add_option("--cases", args.bench.cases, "stability: how many random cases in all")
+        ->check(CLI::PositiveNumber);
+    app->add_option("--seed", args.bench.seed, "stability: the first trial's seed (default 1)");
+    app->add_option("--property", args.bench.properties, "stability: only these properties")->type_name("ID");
 }
 
 /// A file named like a preset among --env values belongs to the presets: `compare --env sky sunset

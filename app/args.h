@@ -6,6 +6,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -55,6 +56,9 @@ struct BenchArgs {
     std::vector<std::string> environments;  ///< besides the built-in ones
     std::string output;                     ///< folder; empty: bench-results
     bool quick = false;
+    std::int64_t cases = 0;               ///< of stability; 0: its everyday number
+    std::uint64_t seed = 1;               ///< of stability's first trial
+    std::vector<std::string> properties;  ///< of stability; empty: all
 };
 
 enum class Command { Edit, Render, Compare, Report, Bake, Bench, Check, List };

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -18,6 +19,9 @@ struct BenchContext {
     const Registry& registry;
     std::vector<std::string> environments;  ///< ids or files to measure on
     bool quick = false;
+    std::int64_t cases = 0;  ///< of stability, over all its properties; 0: its everyday number
+    std::uint64_t seed = 1;  ///< of stability's first trial
+    std::vector<std::string> properties = {};  ///< of stability; empty: all
     int repetitions() const { return quick ? 3 : 9; }
 };
 
@@ -37,5 +41,7 @@ nlohmann::ordered_json bench_frame(const BenchContext& context);
 nlohmann::ordered_json bench_light(const BenchContext& context);
 /// Prefiltering: run time against error, method by method.
 nlohmann::ordered_json bench_ibl(const BenchContext& context);
+/// Properties on random cases: the worst of each against its tolerance.
+nlohmann::ordered_json bench_stability(const BenchContext& context);
 
 }  // namespace patina

@@ -23,6 +23,8 @@ constexpr std::array kBenchmarks{
     Benchmark{"light", "decoding, baking and reading back environments", bench_light},
     Benchmark{"ibl", "prefiltering: run time against error, method by method", bench_ibl},
     Benchmark{"frame", "one frame by shading mode, features and size", bench_frame},
+    Benchmark{"stability", "properties on random cases, and errors against roughness and NoV",
+              bench_stability},
 };
 
 std::vector<const Benchmark*> chosen(const std::vector<std::string>& names) {
@@ -41,7 +43,12 @@ std::vector<const Benchmark*> chosen(const std::vector<std::string>& names) {
 }  // namespace
 
 int run_bench(const BenchArgs& args, const Registry& registry) {
-    BenchContext context{.registry = registry, .environments = {}, .quick = args.quick};
+    BenchContext context{.registry = registry,
+                         .environments = {},
+                         .quick = args.quick,
+                         .cases = args.cases,
+                         .seed = args.seed,
+                         .properties = args.properties};
     for (const EnvironmentItem& item : registry.environments.front().list())
         context.environments.push_back(item.id);
     context.environments.insert(context.environments.end(), args.environments.begin(),

@@ -129,12 +129,31 @@ std::vector<NamedPlot> light_plots(const Json& result) {
     return {{"light", plot}};
 }
 
+std::vector<NamedPlot> stability_plots(const Json& result) {
+    std::vector<NamedPlot> plots;
+    if (!result.contains("sweeps")) return plots;
+    for (const Json& sweep : result.at("sweeps")) {
+        Plot plot;
+        plot.title = sweep.at("y").get<std::string>();
+        plot.x = {sweep.at("x").get<std::string>()};
+        plot.y = {"error", true};
+        for (const Json& each : sweep.at("series")) {
+            PlotSeries& series = series_named(plot, each.at("name").get<std::string>());
+            for (const Json& point : each.at("points"))
+                series.points.push_back({point.at(0).get<double>(), point.at(1).get<double>(), ""});
+        }
+        plots.push_back({"stability-" + sweep.at("name").get<std::string>(), plot});
+    }
+    return plots;
+}
+
 }  // namespace
 
 std::vector<NamedPlot> bench_plots(std::string_view benchmark, const Json& result) {
     if (benchmark == "ibl") return ibl_plots(result);
     if (benchmark == "frame") return frame_plots(result);
     if (benchmark == "light") return light_plots(result);
+    if (benchmark == "stability") return stability_plots(result);
     return {};
 }
 
