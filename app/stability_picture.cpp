@@ -104,6 +104,8 @@ Image broken_map(Random& random) {
                           kind == 0   ? 0.0f
                           : kind == 1 ? 1.0f
                                       : odd[random.below(int(std::size(odd)))]);
+    // Never grey, which would be stored in another format: software GL compiles a shader for each.
+    for (int c = 0; c < 4; ++c) set_texel(image, 0, 0, c, 0.25f * float(c));
     return image;
 }
 
@@ -119,10 +121,10 @@ void count_broken(const Image& image, Trial& trial) {
 void break_material(Scene& scene, Random& random, Stage& stage) {
     make_material(scene.material, random);
     if (random.chance(0.5)) {
-        for (MapHandle& map : scene.maps)
-            map = stage.renderer().upload_map(
-                make_map_levels(broken_map(random), random.chance(0.5) ? MapKind::Data : MapKind::Normal,
-                                ColorSpace::Linear));
+        for (std::size_t slot = 0; slot < scene.maps.size(); ++slot)
+            scene.maps[slot] = stage.renderer().upload_map(make_map_levels(
+                broken_map(random), slot == std::size_t(MapSlot::Normal) ? MapKind::Normal : MapKind::Data,
+                ColorSpace::Linear));
         scene.material.albedo.value += 0.1f;
         scene.material.roughness.value += 0.1f;
         scene.material.metallic.value += 0.1f;

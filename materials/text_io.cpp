@@ -1,8 +1,8 @@
 #include "materials/text_io.h"
 
-#include <atomic>
 #include <cerrno>
 #include <fstream>
+#include <random>
 #include <stdexcept>
 #include <system_error>
 
@@ -72,11 +72,15 @@ void flush_folder(const fs::path& folder) {
 class TemporaryFile {
 public:
     explicit TemporaryFile(const fs::path& target) : target_(target) {
-        static std::atomic<unsigned> counter{0};
         const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-        path_ =
-            folder / (".patina-" + std::to_string(process_id()) + "-" + std::to_string(counter++) + ".tmp");
-        descriptor_ = create_new(path_);
+        // Process numbers come again: a killed one may have left files under this one's names.
+        std::random_device random;
+        for (int names = 0; descriptor_ < 0 && names < 100; ++names) {
+            path_ = folder /
+                    (".patina-" + std::to_string(process_id()) + "-" + std::to_string(random()) + ".tmp");
+            descriptor_ = create_new(path_);
+            if (descriptor_ < 0 && errno != EEXIST) break;
+        }
         if (descriptor_ < 0) refuse_save(target_, reason(errno));
     }
     ~TemporaryFile() {
