@@ -31,7 +31,7 @@ constexpr std::array kVerbs{
     Verb{"drag", 3, 3},  Verb{"move", 2, 2},         Verb{"wheel", 1, 1},       Verb{"type", 1, 1},
     Verb{"key", 1, 1},   Verb{"drop", 1, 1000},      Verb{"resize", 2, 2},      Verb{"close", 0, 0},
     Verb{"wait", 1, 4},  Verb{"mark", 0, 0},         Verb{"expect", 1, 3},      Verb{"screenshot", 1, 1},
-    Verb{"quit", 0, 0},  Verb{"items", 0, 1},
+    Verb{"quit", 0, 0},  Verb{"items", 0, 1},        Verb{"print", 1, 1},
 };
 
 /// Blanks separate; double quotes keep them; a '#' outside quotes ends the line. nullopt: a quote is left
@@ -222,9 +222,7 @@ void Drive::begin_wait(const DriveCommand& command, const DriveView& view, doubl
     } else if (words[1] == "until") {
         const std::vector<std::string> expectation(words.begin() + 2, words.end());
         actions_.emplace_back([this, patience, expectation](Window&, const DriveView& seen) {
-            const DriveView since{seen.editor, seen.items, seen.idle, seen.frames - marked_frames_,
-                                  seen.views - marked_views_};
-            const std::string mismatch = drive_mismatch(since, expectation);
+            const std::string mismatch = drive_mismatch(since_mark(seen), expectation);
             return mismatch.empty() || patience(mismatch);
         });
     } else if (words.size() == 3 && words[2].rfind("frame", 0) == 0) {
@@ -240,6 +238,16 @@ void Drive::begin_wait(const DriveCommand& command, const DriveView& view, doubl
     } else {
         fail("wait for what? 'idle', 'N frames', 'N seconds' or 'until …'");
     }
+}
+
+DriveView Drive::since_mark(const DriveView& view) const {
+    return {.editor = view.editor,
+            .items = view.items,
+            .idle = view.idle,
+            .frames = view.frames - marked_frames_,
+            .views = view.views - marked_views_,
+            .turns = view.turns - marked_turns_,
+            .turn_ms = longest_turn_ms_};
 }
 
 void Drive::begin(const DriveCommand& command, Window& window, const DriveView& view) {
@@ -264,18 +272,24 @@ void Drive::begin(const DriveCommand& command, Window& window, const DriveView& 
     if (verb == "mark") {
         marked_frames_ = view.frames;
         marked_views_ = view.views;
+        marked_turns_ = view.turns;
+        longest_turn_ms_ = 0.0;
         return;
     }
     if (verb == "expect") {
-        const DriveView since{view.editor, view.items, view.idle, view.frames - marked_frames_,
-                              view.views - marked_views_};
-        const std::string mismatch = drive_mismatch(since, {words.begin() + 1, words.end()});
+        const std::string mismatch = drive_mismatch(since_mark(view), {words.begin() + 1, words.end()});
         if (!mismatch.empty()) fail(mismatch);
         return;
     }
     if (verb == "screenshot") {
         screenshot_ = utf8_to_path(words[1]);
         return act([](Window& to) { to.call_for_frame(); });
+    }
+    if (verb == "print") {
+        const std::optional<std::string> value = drive_value(since_mark(view), words[1]);
+        if (!value) fail("there is no value '" + words[1] + "'");
+        std::printf("%s=%s\n", words[1].c_str(), value->c_str());
+        return;
     }
     if (verb == "items") {
         for (const auto& [name, item] : view.items.items)
@@ -291,6 +305,7 @@ void Drive::begin(const DriveCommand& command, Window& window, const DriveView& 
 
 void Drive::step(Window& window, const DriveView& view) {
     now_s_ = window.time_s();
+    longest_turn_ms_ = std::max(longest_turn_ms_, view.turn_ms);
     waiting_ = false;
     while (!finished_) {
         if (view.frames < frame_to_see_) {

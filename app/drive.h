@@ -5,17 +5,28 @@
 // as the panels record it ("menu.file.save", "material.roughness.slider"); what is scrolled out of sight is
 // scrolled into it.
 //
-//   click LABEL [at FX FY]      FX, FY: where inside it, 0…1; the middle otherwise. Also double-click,
-//   right-click, hover. drag LABEL DX DY            presses in its middle and lets go DX, DY further move X
-//   Y, wheel LINES       display coordinates type TEXT, key ctrl+z       into whatever has the keyboard drop
-//   PATH… [at LABEL]       files from outside resize W H, close           the window; close is its button
-//   wait idle                   until no job runs and nothing moves
+// clang-format off
+//   click LABEL [at FX FY]       FX, FY: where inside it, 0…1; the middle otherwise; also double-click,
+//                                right-click, hover
+//   drag LABEL DX DY             presses in its middle and lets go DX, DY further
+//   move X Y                     display coordinates
+//   wheel LINES
+//   type TEXT                    into whatever has the keyboard; so does
+//   key ctrl+z
+//   drop PATH… [at LABEL]        files from outside
+//   resize W H                   the window
+//   close                        the window's own button
+//   wait idle                    until no job runs and nothing moves
 //   wait N frames | N seconds
-//   wait until EXPECTATION      at most a minute
-//   mark                        frames and views count from here
-//   expect EXPECTATION          dirty | clean | item LABEL | no item LABEL | KEY=VALUE (also != < <= > >= and
-//   ~ for contains) screenshot FILE.png quit                        at once, asking nothing; so does the
-//   script's end
+//   wait until EXPECTATION       at most a few minutes
+//   mark                         frames, views, turns and longest_turn_ms count from here
+//   expect EXPECTATION           dirty | clean | item LABEL | no item LABEL | KEY=VALUE (also != < <= > >= and
+//                                ~ for contains, !~ for does not contain)
+//   print KEY                    its value, on standard output
+//   items [PREFIX]               the names of all items shown, on standard output
+//   screenshot FILE.png
+//   quit                         at once, asking nothing; so does the script's end
+// clang-format on
 //
 // KEY: a parameter of the material ("roughness", "uv.scale"), "albedo.map", "albedo.state" (none, loading,
 // ok, missing, broken), or one of the names in drive_value(). A failed command ends the program with status 1
@@ -51,6 +62,8 @@ struct DriveView {
     bool idle = false;
     std::uint64_t frames = 0;  ///< of the window
     std::uint64_t views = 0;   ///< of the 3D view
+    std::uint64_t turns = 0;   ///< of the event loop
+    double turn_ms = 0.0;      ///< main-thread work: of the last turn for step(), of the longest for values
 };
 /// A value by name as text; nullopt if there is none of that name.
 std::optional<std::string> drive_value(const DriveView& view, const std::string& key);
@@ -79,6 +92,8 @@ private:
     void begin_wait(const DriveCommand& command, const DriveView& view, double now_s);
     void act(std::function<void(Window&)> action);  ///< then waits for the next frame
     Action reach(const std::string& label, glm::vec2 fraction);
+    /// The same, counted from the mark.
+    DriveView since_mark(const DriveView& view) const;
     [[noreturn]] void fail(const std::string& what) const;
 
     std::vector<DriveCommand> commands_;
@@ -89,7 +104,8 @@ private:
     double began_s_ = 0.0;
     double now_s_ = 0.0;
     glm::vec2 mouse_{0.0f};
-    std::uint64_t marked_frames_ = 0, marked_views_ = 0;
+    std::uint64_t marked_frames_ = 0, marked_views_ = 0, marked_turns_ = 0;
+    double longest_turn_ms_ = 0.0;  ///< since the mark
     std::optional<std::filesystem::path> screenshot_;
     bool waiting_ = false;
     bool finished_ = false;

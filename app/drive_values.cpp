@@ -105,6 +105,8 @@ constexpr std::array kValues{
     NamedValue{"redo", [](const DriveView& v) { return v.editor.status.redo_what; }},
     NamedValue{"frames", [](const DriveView& v) { return std::to_string(v.frames); }},
     NamedValue{"views", [](const DriveView& v) { return std::to_string(v.views); }},
+    NamedValue{"turns", [](const DriveView& v) { return std::to_string(v.turns); }},
+    NamedValue{"longest_turn_ms", [](const DriveView& v) { return text_of(v.turn_ms); }},
     NamedValue{
         "lights_baked",
         [](const DriveView& v) { return std::to_string(v.editor.reconciler.counts().environments_baked); }},

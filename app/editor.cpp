@@ -9,6 +9,8 @@
 #include "ui/workspace.h"
 
 #include <algorithm>
+#include <chrono>
+#include <ctime>
 #include <exception>
 #include <utility>
 
@@ -36,6 +38,17 @@ struct Drawn {
 };
 Drawn signature_of(const Scene& scene) {
     return {scene.environment, scene.mesh, scene.maps, scene.material, scene.camera, scene.view};
+}
+
+/// What this thread has worked so far, in milliseconds; where the system does not tell, the time of day.
+double thread_work_ms() {
+#ifdef CLOCK_THREAD_CPUTIME_ID
+    std::timespec now{};
+    if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now) == 0)
+        return double(now.tv_sec) * 1e3 + double(now.tv_nsec) * 1e-6;
+#endif
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
 }
 
 /// The loop around an Editor: window, viewport and script.
@@ -76,7 +89,8 @@ private:
     TargetHandle target_;
     Drawn drawn_;
     bool has_drawn_ = false;
-    std::uint64_t views_ = 0;
+    std::uint64_t views_ = 0, turns_ = 0;
+    double turn_ms_ = 0.0;  ///< main-thread work of the last turn
     int frames_wanted_ = kFramesAfterEvent;
     bool animating_ = false;
     bool more_uploads_ = false;
@@ -271,7 +285,13 @@ void Loop::after_frame(const ui::PanelContext& context) {
 
 void Loop::drive() {
     if (!drive_) return;
-    drive_->step(window_, {editor_, items_, idle() && !needs_frame(), window_.frames(), views_});
+    drive_->step(window_, {.editor = editor_,
+                           .items = items_,
+                           .idle = idle() && !needs_frame(),
+                           .frames = window_.frames(),
+                           .views = views_,
+                           .turns = turns_,
+                           .turn_ms = turn_ms_});
     if (drive_->finished()) editor_.quit = true;
 }
 
@@ -307,10 +327,13 @@ void Loop::remember_window() {
 void Loop::live() {
     while (!editor_.quit) {
         window_.wait(sleep_s());
+        const double begin_ms = thread_work_ms();
         drive();
         take_events();
         think();
         if (needs_frame()) frame();
+        ++turns_;
+        turn_ms_ = thread_work_ms() - begin_ms;
     }
 }
 
