@@ -289,6 +289,7 @@ void Drive::begin(const DriveCommand& command, Window& window, const DriveView& 
         const std::optional<std::string> value = drive_value(since_mark(view), words[1]);
         if (!value) fail("there is no value '" + words[1] + "'");
         std::printf("%s=%s\n", words[1].c_str(), value->c_str());
+        std::fflush(stdout);  // whoever watches a long script wants to know now
         return;
     }
     if (verb == "items") {
