@@ -47,11 +47,11 @@ std::uint64_t bytes_of(const MapLevels& map) {
 std::uint64_t bytes_of(const Mesh& mesh) {
     return mesh.vertices.size() * sizeof(Vertex) + mesh.indices.size() * sizeof(std::uint32_t);
 }
-std::uint64_t bytes_of(const ReadyEnvironment& ready) {
-    std::uint64_t texels = ready.baked.irradiance.texels.size();
-    for (const PanoramaLevels::Level& level : ready.panorama.levels) texels += level.rgba.size() / 4;
-    for (const PrefilteredLevel& level : ready.baked.levels) texels += level.cube.texels.size();
-    return texels * 8;  // half floats, four channels
+std::uint64_t bytes_of(const PreparedLight& light) {
+    std::uint64_t halves = light.levels.irradiance.rgba.size();
+    for (const PanoramaLevels::Level& level : light.panorama.levels) halves += level.rgba.size();
+    for (const LightLevels::Cube& cube : light.levels.levels) halves += cube.rgba.size();
+    return halves * sizeof(std::uint16_t);
 }
 
 std::string mesh_title(const Registry& registry, const std::string& id) {
@@ -120,8 +120,10 @@ struct Reconciler::State {
     Jobs::Id start_map(const std::string& key, const MapRequest& request);
     Jobs::Id start_mesh(const std::string& key);
     Jobs::Id start_environment(const std::string& key);
-    template <class T, class Ready, class Upload>
-    void expect(Supply<T>& supply, const std::string& key, std::shared_ptr<Ready> ready, Upload upload);
+    template <class T, class Ready, class Input, class Finished>
+    void expect(Supply<T>& supply, const std::string& key, std::shared_ptr<Ready> ready,
+                std::shared_ptr<const Input> input, Finished finished);
+    void let_go(std::shared_ptr<const void> large) const;
     template <class T>
     std::function<void(const std::string&)> when_failed(Supply<T>& supply, const std::string& key,
                                                         const std::shared_ptr<FileStamp>& stamp);
@@ -163,20 +165,40 @@ void Reconciler::State::note(const std::string& id, const std::vector<std::strin
     for (const std::string& each : notes) options.log(ui::Severity::Info, short_name(id) + ": " + each);
 }
 
-/// Queues the main thread's part of a finished job: upload(ready) does a portion and is true when it is done.
-template <class T, class Ready, class Upload>
+/// Gives memory back on a worker: of hundreds of megabytes that takes longer than a frame.
+void Reconciler::State::let_go(std::shared_ptr<const void> large) const {
+    const auto box = std::make_shared<std::shared_ptr<const void>>(std::move(large));
+    jobs.start("", [box](JobContext&) -> Jobs::Done {
+        box->reset();
+        return {};
+    });
+}
+
+/// Queues the main thread's part of a finished job: the upload of input, and then finished(ready, handle).
+template <class T, class Ready, class Input, class Finished>
 void Reconciler::State::expect(Supply<T>& supply, const std::string& key, std::shared_ptr<Ready> ready,
-                               Upload upload) {
+                               std::shared_ptr<const Input> input, Finished finished) {
     note(id_of(key), ready->notes);
-    uploads.push_back([this, &supply, key, ready = std::move(ready), upload] {
-        if (!supply.is_loading(key)) return true;
+    using Begun = decltype(Renderer::begin_upload(input));
+    uploads.push_back([this, &supply, key, ready = std::move(ready), input = std::move(input), finished,
+                       upload = std::optional<Begun>{}]() mutable {
+        bool done = true;
         try {
-            return upload(*ready);
+            if (!supply.is_loading(key)) {
+            } else if (!upload) {
+                upload = Renderer::begin_upload(input);
+                done = false;
+            } else if (done = upload->step(kUploadPortion); done) {
+                finished(*ready, upload->finish());
+            }
         } catch (const std::exception& error) {  // the driver has no memory left, or does not know the format
             options.log(ui::Severity::Error, error.what());
             supply.failed(key, error.what());
-            return true;
         }
+        if (!done) return false;
+        upload.reset();
+        let_go(std::move(input));
+        return true;
     });
 }
 
@@ -193,31 +215,27 @@ std::function<void(const std::string&)> Reconciler::State::when_failed(
 Jobs::Id Reconciler::State::start_map(const std::string& key, const MapRequest& request) {
     ++counts.maps_loaded;
     const auto stamp = std::make_shared<FileStamp>();
-    return jobs.start(
-        "Loading " + short_name(request.file),
-        [this, key, request, stamp](JobContext&) -> Jobs::Done {
-            *stamp = stamp_of(utf8_to_path(request.file));
-            const auto ready = std::make_shared<ReadyMap>(load_map(registry, request));
-            return [this, key, ready, stamp] {
-                files_read.emplace_back(id_of(key), *stamp);
-                const std::uint64_t bytes = bytes_of(ready->levels);
-                const auto upload = std::make_shared<MapUpload>(std::move(ready->levels));
-                expect(maps, key, ready, [this, key, upload, bytes](const ReadyMap& map) {
-                    if (!upload->step(kUploadPortion)) return false;
-                    HeldMap held{.handle = upload->finish(),
-                                 .thumbnail = renderer.upload_thumbnail(map.thumbnail)};
-                    held.status = {.state = ui::MapState::Ok,
-                                   .width = map.width,
-                                   .height = map.height,
-                                   .channels = map.channels,
-                                   .bits = map.bits,
-                                   .file_bytes = map.file_bytes};
-                    maps.finished(key, std::move(held), bytes);
-                    return true;
-                });
-            };
-        },
-        when_failed(maps, key, stamp));
+    const auto work = [this, key, request, stamp](JobContext&) -> Jobs::Done {
+        *stamp = stamp_of(utf8_to_path(request.file));
+        const auto ready = std::make_shared<ReadyMap>(load_map(registry, request));
+        return [this, key, ready, stamp] {
+            files_read.emplace_back(id_of(key), *stamp);
+            const std::uint64_t bytes = bytes_of(*ready->levels);
+            expect(maps, key, ready, std::exchange(ready->levels, nullptr),
+                   [this, key, bytes](const ReadyMap& map, MapHandle handle) {
+                       HeldMap held{.handle = std::move(handle),
+                                    .thumbnail = renderer.upload_thumbnail(map.thumbnail)};
+                       held.status = {.state = ui::MapState::Ok,
+                                      .width = map.width,
+                                      .height = map.height,
+                                      .channels = map.channels,
+                                      .bits = map.bits,
+                                      .file_bytes = map.file_bytes};
+                       maps.finished(key, std::move(held), bytes);
+                   });
+        };
+    };
+    return jobs.start("Loading " + short_name(request.file), work, when_failed(maps, key, stamp));
 }
 
 Jobs::Id Reconciler::State::start_mesh(const std::string& key) {
@@ -227,62 +245,61 @@ Jobs::Id Reconciler::State::start_mesh(const std::string& key) {
     if (wants_tangents(key))
         if (const auto held = meshes.in_memory(versioned(id))) bare = held->mesh;
     struct Ready {
-        std::shared_ptr<Mesh> mesh;
+        std::shared_ptr<const Mesh> mesh;
         std::vector<std::string> notes;
     };
     const auto stamp = std::make_shared<FileStamp>();
-    return jobs.start((bare ? "Computing tangents of " : "Loading ") + short_name(id),
-                      [this, key, id, bare, stamp](JobContext&) -> Jobs::Done {
-                          *stamp = stamp_of(utf8_to_path(id));
-                          const auto ready = std::make_shared<Ready>();
-                          ready->mesh = std::make_shared<Mesh>(bare ? *bare : load_mesh_part(registry, id));
-                          if (!bare) ready->notes = ready->mesh->notes;
-                          if (wants_tangents(key) && !ready->mesh->has_tangents) make_tangents(*ready->mesh);
-                          return [this, key, ready, stamp] {
-                              files_read.emplace_back(id_of(key), *stamp);
-                              expect(meshes, key, ready, [this, key](Ready& loaded) {
-                                  const Mesh& mesh = *loaded.mesh;
-                                  HeldMesh held{.handle = renderer.upload_mesh(mesh), .mesh = loaded.mesh};
-                                  held.info = {.title = mesh_title(registry, id_of(key)),
-                                               .triangles = mesh.indices.size() / 3,
-                                               .vertices = mesh.vertices.size(),
-                                               .has_uvs = mesh.has_uvs,
-                                               .notes = mesh.notes};
-                                  meshes.finished(key, std::move(held), 2 * bytes_of(mesh));
-                                  return true;
-                              });
-                          };
-                      },
+    const auto work = [this, key, id, bare, stamp](JobContext& job) -> Jobs::Done {
+        *stamp = stamp_of(utf8_to_path(id));
+        auto mesh = std::make_shared<Mesh>(bare ? *bare : load_mesh_part(registry, id, job.stop));
+        const auto ready = std::make_shared<Ready>();
+        if (!bare) ready->notes = mesh->notes;
+        if (wants_tangents(key) && !mesh->has_tangents) make_tangents(*mesh);
+        auto prepared = std::make_shared<const PreparedMesh>(prepare_mesh(*mesh));
+        ready->mesh = std::move(mesh);
+        return [this, key, ready, stamp, prepared] {
+            files_read.emplace_back(id_of(key), *stamp);
+            expect(meshes, key, ready, prepared, [this, key](const Ready& loaded, MeshHandle handle) {
+                HeldMesh held{.handle = std::move(handle), .mesh = loaded.mesh};
+                held.info = {.title = mesh_title(registry, id_of(key)),
+                             .triangles = loaded.mesh->indices.size() / 3,
+                             .vertices = loaded.mesh->vertices.size(),
+                             .has_uvs = loaded.mesh->has_uvs,
+                             .notes = loaded.mesh->notes};
+                meshes.finished(key, std::move(held), 2 * bytes_of(*loaded.mesh));
+            });
+        };
+    };
+    return jobs.start((bare ? "Computing tangents of " : "Loading ") + short_name(id), work,
                       when_failed(meshes, key, stamp));
 }
 
 Jobs::Id Reconciler::State::start_environment(const std::string& key) {
     const std::string id = id_of(key);
     const auto stamp = std::make_shared<FileStamp>();
-    return jobs.start(
-        "Baking " + short_name(id),
-        [this, key, id, stamp](JobContext& job) -> Jobs::Done {
-            *stamp = stamp_of(utf8_to_path(id));
-            const BakeControl control{jobs.parallel_for(), job.progress, job.stop};
-            auto baked = load_and_bake(registry, id, options.bake_settings, options.bakes, control);
-            if (!baked) return {};
-            const auto ready = std::make_shared<ReadyEnvironment>(std::move(*baked));
-            return [this, key, ready, stamp] {
-                files_read.emplace_back(id_of(key), *stamp);
-                ++(ready->from_disk ? counts.environments_from_disk : counts.environments_baked);
-                expect(environments, key, ready, [this, key](ReadyEnvironment& light) {
-                    HeldEnvironment held{.handle = renderer.upload_environment(light.panorama, light.baked)};
-                    held.info = {.title = light.title,
-                                 .width = light.width,
-                                 .height = light.height,
-                                 .max_radiance = light.max_radiance,
-                                 .notes = light.notes};
-                    environments.finished(key, std::move(held), bytes_of(light));
-                    return true;
-                });
-            };
-        },
-        when_failed(environments, key, stamp));
+    const auto work = [this, key, id, stamp](JobContext& job) -> Jobs::Done {
+        *stamp = stamp_of(utf8_to_path(id));
+        const BakeControl control{jobs.parallel_for(), job.progress, job.stop};
+        auto baked = load_and_bake(registry, id, options.bake_settings, options.bakes, control);
+        if (!baked) return {};
+        const auto ready = std::make_shared<ReadyEnvironment>(std::move(*baked));
+        return [this, key, ready, stamp] {
+            files_read.emplace_back(id_of(key), *stamp);
+            ++(ready->from_disk ? counts.environments_from_disk : counts.environments_baked);
+            const std::uint64_t bytes = bytes_of(*ready->light);
+            expect(environments, key, ready, std::exchange(ready->light, nullptr),
+                   [this, key, bytes](const ReadyEnvironment& light, EnvironmentHandle handle) {
+                       HeldEnvironment held{.handle = std::move(handle)};
+                       held.info = {.title = light.title,
+                                    .width = light.width,
+                                    .height = light.height,
+                                    .max_radiance = light.max_radiance,
+                                    .notes = light.notes};
+                       environments.finished(key, std::move(held), bytes);
+                   });
+        };
+    };
+    return jobs.start("Baking " + short_name(id), work, when_failed(environments, key, stamp));
 }
 
 void Reconciler::State::start_missing(const Document& document) {

@@ -51,11 +51,13 @@ ReadyMap load_map(const Registry& registry, const MapRequest& request, int max_s
     ready.file_bytes = ignored ? 0 : bytes;
     const bool linear_color = request.kind == MapKind::Color && request.color_space == ColorSpace::Linear;
     ready.thumbnail = small_picture(loaded.image, kThumbnailPx, linear_color);
-    ready.levels = make_map_levels(loaded.image, request.kind, request.color_space);
+    auto levels =
+        std::make_shared<MapLevels>(make_map_levels(loaded.image, request.kind, request.color_space));
     if (max_side > 0)
-        while (ready.levels.levels.size() > 1 &&
-               std::max(ready.levels.levels[0].width, ready.levels.levels[0].height) > max_side)
-            ready.levels.levels.erase(ready.levels.levels.begin());
+        while (levels->levels.size() > 1 &&
+               std::max(levels->levels[0].width, levels->levels[0].height) > max_side)
+            levels->levels.erase(levels->levels.begin());
+    ready.levels = std::move(levels);
     return ready;
 }
 
@@ -75,11 +77,11 @@ std::optional<ReadyEnvironment> load_and_bake(const Registry& registry, const st
     ReadyEnvironment ready{.title = environment.title,
                            .width = environment.width,
                            .height = environment.height,
-                           .panorama = make_panorama_levels(environment),
-                           .baked = std::move(bake->baked),
+                           .light = std::make_shared<PreparedLight>(PreparedLight{
+                               make_panorama_levels(environment), make_light_levels(bake->baked)}),
                            .from_disk = bake->from_disk,
                            .notes = environment.notes};
-    ready.notes.insert(ready.notes.end(), ready.baked.notes.begin(), ready.baked.notes.end());
+    ready.notes.insert(ready.notes.end(), bake->baked.notes.begin(), bake->baked.notes.end());
     if (!bake->note.empty()) ready.notes.push_back(bake->note);
     for (const glm::vec3& radiance : environment.radiance)
         ready.max_radiance = std::max({ready.max_radiance, radiance.x, radiance.y, radiance.z});

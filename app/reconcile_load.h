@@ -4,12 +4,13 @@
 
 #include "app/jobs.h"
 #include "app/registry.h"
-#include "renderer/gl/panorama.h"
 #include "renderer/ibl/cache.h"
 #include "renderer/renderer.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct MapRequest {
 MapRequest map_request(const Material& material, MapSlot slot);
 
 struct ReadyMap {
-    MapLevels levels;
+    std::shared_ptr<const MapLevels> levels;
     Image thumbnail;  ///< 3 channels of 8 bits, at most kThumbnailPx a side
     int width = 0, height = 0, channels = 0, bits = 0;
     std::uint64_t file_bytes = 0;
@@ -38,8 +39,7 @@ ReadyMap load_map(const Registry& registry, const MapRequest& request, int max_s
 struct ReadyEnvironment {
     std::string title;
     int width = 0, height = 0;  ///< of the source
-    PanoramaLevels panorama;
-    BakedEnvironment baked;
+    std::shared_ptr<const PreparedLight> light;
     bool from_disk = false;
     float max_radiance = 0.0f;
     std::vector<std::string> notes;

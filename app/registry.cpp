@@ -114,7 +114,7 @@ Registry builtin_parts() {
     registry.mesh_importers = {{.name = "openmesh",
                                 .description = "Meshes through OpenMesh",
                                 .extensions = {"obj", "ply", "off", "stl"},
-                                .load = [](const fs::path& file) { return load_mesh(file); }}};
+                                .load = load_mesh}};
     registry.image_exporters = {{.name = "png",
                                  .description = "The display picture, 8 bits a channel",
                                  .extensions = {"png"},
@@ -183,11 +183,12 @@ std::string environment_title(const Registry& registry, const std::string& id) {
     return utf8_from_path(path_from_utf8(id).stem());
 }
 
-Mesh load_mesh_part(const Registry& registry, const std::string& id) {
+Mesh load_mesh_part(const Registry& registry, const std::string& id, const std::stop_token& stop) {
     for (const MeshPart& part : registry.meshes)
         if (part.id == id) return part.make();
     const fs::path file = path_from_utf8(id);
-    if (const MeshImporter* importer = part_for(registry.mesh_importers, file)) return importer->load(file);
+    if (const MeshImporter* importer = part_for(registry.mesh_importers, file))
+        return importer->load(file, stop);
     std::vector<std::string> ids;
     for (const MeshPart& part : registry.meshes) ids.push_back(part.id);
     std::vector<std::string> extensions;

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,8 @@ struct MeshImporter {
     std::string name;
     std::string description;
     std::vector<std::string> extensions;
-    std::function<Mesh(const std::filesystem::path&)> load;
+    /// stop: nobody waits for it any more; it may then throw.
+    std::function<Mesh(const std::filesystem::path&, const std::stop_token& stop)> load;
 };
 /// Writes pictures; atomic; chosen by the file's extension.
 struct ImageExporter {
@@ -94,7 +96,7 @@ struct LoadedLight {
 };
 LoadedLight load_light(const Registry& registry, const std::string& id);
 /// By id ("sphere") or file path; likewise.
-Mesh load_mesh_part(const Registry& registry, const std::string& id);
+Mesh load_mesh_part(const Registry& registry, const std::string& id, const std::stop_token& stop = {});
 /// By the file's extension; likewise.
 LoadedImage import_image(const Registry& registry, const std::filesystem::path& file);
 

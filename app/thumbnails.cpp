@@ -45,7 +45,7 @@ struct Found {
     fs::path cache_file;
     Material material;
     std::array<std::optional<ReadyMap>, kMapSlots> maps;
-    std::optional<Mesh> mesh;
+    std::shared_ptr<const PreparedMesh> mesh;
 };
 
 using Key = std::pair<Thumbnails::Kind, std::string>;
@@ -99,7 +99,8 @@ void find_environment_picture(const Registry& registry, const fs::path& folder, 
 void find_mesh_picture(const Registry& registry, const fs::path& folder, const std::string& id,
                        Found& found) {
     found.cache_file = cache_file(folder, "mesh\n" + id + "\n" + describe(stamp_of(utf8_to_path(id))));
-    if (!take_from_cache(found)) found.mesh = load_mesh_part(registry, id);
+    if (!take_from_cache(found))
+        found.mesh = std::make_shared<PreparedMesh>(prepare_mesh(load_mesh_part(registry, id)));
 }
 
 void write_to_cache(const fs::path& file, const Image& picture) {
@@ -195,11 +196,11 @@ void Thumbnails::State::start_light() {
             auto baked = load_and_bake(registry, kLight, options.bake_settings, options.bakes,
                                        {jobs.parallel_for(), context.progress, context.stop});
             if (!baked) return {};
-            auto shape = std::make_shared<Mesh>(load_mesh_part(registry, kShape));
-            make_tangents(*shape);
-            return [this, shape, ready = std::make_shared<ReadyEnvironment>(std::move(*baked))] {
-                light = renderer.upload_environment(ready->panorama, ready->baked);
-                sphere = renderer.upload_mesh(*shape);
+            Mesh shape = load_mesh_part(registry, kShape);
+            make_tangents(shape);
+            return [this, shape = std::make_shared<PreparedMesh>(prepare_mesh(shape)), ready = baked->light] {
+                light = Renderer::begin_upload(ready).finish();
+                sphere = Renderer::begin_upload(shape).finish();
             };
         },
         [this](const std::string&) { light_failed = true; });
@@ -212,12 +213,12 @@ void Thumbnails::State::draw() {
     scene.view.background = Background::Plain;
     scene.view.plain_color = glm::vec3(0.05f);
     if (found.mesh) {
-        scene.mesh = renderer.upload_mesh(*found.mesh);
+        scene.mesh = Renderer::begin_upload(found.mesh).finish();
         scene.camera.yaw_deg = -30.0f;
         scene.camera.pitch_deg = 20.0f;
     }
     for (int i = 0; i < kMapSlots; ++i)
-        if (found.maps[i]) scene.maps[i] = renderer.upload_map(found.maps[i]->levels);
+        if (found.maps[i]) scene.maps[i] = Renderer::begin_upload(found.maps[i]->levels).finish();
     const TargetHandle target = renderer.make_target({kSidePx, kSidePx});
     renderer.draw(scene, *target);
     const auto picture = std::make_shared<Image>(renderer.read_display(*target));

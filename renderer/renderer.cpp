@@ -21,6 +21,14 @@ namespace patina {
 
 namespace {
 
+constexpr std::size_t kUploadAtOnce = std::size_t{1} << 26;
+
+/// For the length of a call.
+template <class T>
+std::shared_ptr<const T> borrowed(const T& value) {
+    return {std::shared_ptr<const T>{}, &value};
+}
+
 gl::Texture make_brdf_texture() {
     const gl::KeepTextureBindings keep;
     gl::Texture texture = gl::Texture::make();
@@ -44,8 +52,9 @@ EnvironmentHandle make_darkness() {
     Environment environment;
     environment.width = environment.height = 1;
     environment.radiance = {glm::vec3(0.0f)};
-    return std::make_shared<GpuEnvironment>(
-        gl::make_environment_textures(make_panorama_levels(environment), baked));
+    return Renderer::begin_upload(std::make_shared<PreparedLight>(PreparedLight{
+                                      make_panorama_levels(environment), make_light_levels(baked)}))
+        .finish();
 }
 
 LightLayout layout_of(const GpuEnvironment& environment) {
@@ -197,26 +206,53 @@ Renderer::Renderer() {
 
 Renderer::~Renderer() = default;
 
-EnvironmentHandle Renderer::upload_environment(const Environment& environment,
-                                               const BakedEnvironment& baked) {
-    return upload_environment(make_panorama_levels(environment), baked);
+namespace {
+
+struct MapWriter {
+    explicit MapWriter(const MapLevels& map) : writer(map.levels, map.srgb) {}
+    bool step(const MapLevels& map, std::size_t byte_budget) { return writer.step(map.levels, byte_budget); }
+    GpuMap take() { return writer.take(); }
+    gl::TextureWriter writer;
+};
+
+/// Writer(input) makes the empty thing, step(input, bytes) fills it, take() hands it over.
+template <class Gpu, class Writer, class Input>
+Upload<Gpu> make_upload(std::shared_ptr<const Input> input) {
+    const auto writer = std::make_shared<Writer>(*input);
+    const auto step = [writer, input](std::size_t byte_budget) { return writer->step(*input, byte_budget); };
+    return {step, [writer, step]() -> std::shared_ptr<const Gpu> {
+                while (!step(kUploadAtOnce)) {
+                }
+                return std::make_shared<Gpu>(writer->take());
+            }};
 }
 
-EnvironmentHandle Renderer::upload_environment(const PanoramaLevels& panorama,
+}  // namespace
+
+Upload<GpuEnvironment> Renderer::begin_upload(std::shared_ptr<const PreparedLight> light) {
+    return make_upload<GpuEnvironment, gl::EnvironmentWriter>(std::move(light));
+}
+
+Upload<GpuMesh> Renderer::begin_upload(std::shared_ptr<const PreparedMesh> mesh) {
+    return make_upload<GpuMesh, gl::MeshWriter>(std::move(mesh));
+}
+
+Upload<GpuMap> Renderer::begin_upload(std::shared_ptr<const MapLevels> levels) {
+    return make_upload<GpuMap, MapWriter>(std::move(levels));
+}
+
+EnvironmentHandle Renderer::upload_environment(const Environment& environment,
                                                const BakedEnvironment& baked) {
-    return std::make_shared<GpuEnvironment>(gl::make_environment_textures(panorama, baked));
+    const PreparedLight light{make_panorama_levels(environment), make_light_levels(baked)};
+    return begin_upload(borrowed(light)).finish();
 }
 
 MeshHandle Renderer::upload_mesh(const Mesh& mesh) {
-    return std::make_shared<GpuMesh>(gl::make_mesh_buffers(mesh));
+    const PreparedMesh ready = prepare_mesh(mesh);
+    return begin_upload(borrowed(ready)).finish();
 }
 
-MapHandle Renderer::upload_map(const MapLevels& levels) {
-    gl::TextureWriter writer(levels.levels, levels.srgb);
-    while (!writer.step(levels.levels, std::size_t{1} << 26)) {
-    }
-    return std::make_shared<GpuMap>(writer.take());
-}
+MapHandle Renderer::upload_map(const MapLevels& levels) { return begin_upload(borrowed(levels)).finish(); }
 
 MapHandle Renderer::upload_thumbnail(const Image& image) {
     return std::make_shared<GpuMap>(gl::make_interface_texture(image));
@@ -248,25 +284,5 @@ std::uintptr_t Renderer::display_texture(const RenderTarget& target) { return ta
 glm::ivec2 Renderer::size_px(const RenderTarget& target) { return target.size; }
 Image Renderer::read_display(const RenderTarget& target) { return gl::read_display_pixels(target); }
 Image Renderer::read_radiance(const RenderTarget& target) { return gl::read_radiance_pixels(target); }
-
-struct MapUpload::State {
-    explicit State(MapLevels map) : levels(std::move(map)), writer(levels.levels, levels.srgb) {}
-    MapLevels levels;
-    gl::TextureWriter writer;
-};
-
-MapUpload::MapUpload(MapLevels levels) : state_(std::make_unique<State>(std::move(levels))) {}
-MapUpload::~MapUpload() = default;
-MapUpload::MapUpload(MapUpload&&) noexcept = default;
-MapUpload& MapUpload::operator=(MapUpload&&) noexcept = default;
-bool MapUpload::step(std::size_t byte_budget) {
-    return state_->writer.step(state_->levels.levels, byte_budget);
-}
-float MapUpload::fraction() const { return state_->writer.fraction(); }
-MapHandle MapUpload::finish() {
-    while (!step(std::size_t{1} << 26)) {
-    }
-    return std::make_shared<GpuMap>(state_->writer.take());
-}
 
 }  // namespace patina

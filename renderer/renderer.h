@@ -11,14 +11,17 @@
 #include "renderer/core/image.h"
 #include "renderer/core/mesh.h"
 #include "renderer/core/view.h"
-#include "renderer/gl/panorama.h"
+#include "renderer/gl/light_levels.h"
+#include "renderer/gl/mesh_prepare.h"
 #include "renderer/ibl/bake.h"
 #include "renderer/map_levels.h"
 
 #include <glm/vec2.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -49,25 +52,12 @@ using TargetHandle = std::shared_ptr<RenderTarget>;
 /// and saving.
 enum class TargetPrecision { Half, Full };
 
-/// A large map on its way to the GPU, a portion a frame, so that the window does not stall.
-class MapUpload {
-public:
-    explicit MapUpload(MapLevels levels);
-    ~MapUpload();
-    MapUpload(const MapUpload&) = delete;
-    MapUpload& operator=(const MapUpload&) = delete;
-    MapUpload(MapUpload&&) noexcept;
-    MapUpload& operator=(MapUpload&&) noexcept;
-
-    /// Copies about byte_budget bytes; true when all is there.
-    bool step(std::size_t byte_budget);
-    float fraction() const;  ///< 0…1
-    /// Copies what is left and hands the map over; call once.
-    MapHandle finish();
-
-private:
-    struct State;
-    std::unique_ptr<State> state_;
+/// Something large on its way to the GPU, a portion a frame, so that the window does not stall.
+template <class T>
+struct Upload {
+    std::function<bool(std::size_t byte_budget)>
+        step;                                          ///< copies about so many bytes; true when all is there
+    std::function<std::shared_ptr<const T>()> finish;  ///< copies what is left and hands it over; call once
 };
 
 class Renderer {
@@ -78,11 +68,15 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
+    // All at once …
     EnvironmentHandle upload_environment(const Environment& environment, const BakedEnvironment& baked);
-    /// The same with the panorama's mip chain made beforehand, on a worker: what is left takes milliseconds.
-    EnvironmentHandle upload_environment(const PanoramaLevels& panorama, const BakedEnvironment& baked);
     MeshHandle upload_mesh(const Mesh& mesh);
-    MapHandle upload_map(const MapLevels& levels);  ///< all at once; MapUpload spreads it over frames
+    MapHandle upload_map(const MapLevels& levels);
+    // … or spread over frames, with what is to be computed beforehand done on a worker. Call with the context
+    // current, as step and finish.
+    static Upload<GpuEnvironment> begin_upload(std::shared_ptr<const PreparedLight> light);
+    static Upload<GpuMesh> begin_upload(std::shared_ptr<const PreparedMesh> mesh);
+    static Upload<GpuMap> begin_upload(std::shared_ptr<const MapLevels> levels);
 
     /// samples: MSAA, clamped to what the driver offers; size ≥ 1×1.
     TargetHandle make_target(glm::ivec2 size_px, int samples = 4,

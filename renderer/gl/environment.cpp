@@ -1,9 +1,6 @@
 #include "renderer/gl/environment.h"
 
-#include "renderer/gl/half.h"
 #include "renderer/gl/texture.h"
-
-#include <glm/common.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,79 +10,7 @@ namespace patina::gl {
 
 namespace {
 
-float largest_of(const CubeMap& cube) {
-    float largest = 0.0f;
-    for (const glm::vec3& texel : cube.texels) largest = std::max({largest, texel.x, texel.y, texel.z});
-    return largest;
-}
-
-std::vector<std::uint16_t> to_halves(const CubeMap& cube, int exponent) {
-    std::vector<std::uint16_t> rgba(4 * cube.texels.size());
-    const float scale = std::ldexp(1.0f, -exponent);
-    for (std::size_t i = 0; i < cube.texels.size(); ++i) {
-        for (int c = 0; c < 3; ++c) rgba[4 * i + c] = to_half(cube.texels[i][c] * scale);
-        rgba[4 * i + 3] = to_half(1.0f);
-    }
-    return rgba;
-}
-
-struct FacePoint {
-    int face = 0;
-    float s = 0.0f;  ///< −1…1 along the row
-    float t = 0.0f;  ///< −1…1 down the column
-};
-
-/// OpenGL's table of cube faces (specification, "Cube Map Texture Selection").
-FacePoint face_point(glm::vec3 d) {
-    const glm::vec3 a = glm::abs(d);
-    if (a.x >= a.y && a.x >= a.z)
-        return d.x > 0.0f ? FacePoint{0, -d.z / a.x, -d.y / a.x} : FacePoint{1, d.z / a.x, -d.y / a.x};
-    if (a.y >= a.z)
-        return d.y > 0.0f ? FacePoint{2, d.x / a.y, d.z / a.y} : FacePoint{3, d.x / a.y, -d.z / a.y};
-    return d.z > 0.0f ? FacePoint{4, d.x / a.z, -d.y / a.z} : FacePoint{5, -d.x / a.z, -d.y / a.z};
-}
-
-glm::vec3 face_direction(FacePoint p) {
-    switch (p.face) {
-        case 0:
-            return {1.0f, -p.t, -p.s};
-        case 1:
-            return {-1.0f, -p.t, p.s};
-        case 2:
-            return {p.s, 1.0f, p.t};
-        case 3:
-            return {p.s, -1.0f, -p.t};
-        case 4:
-            return {p.s, -p.t, 1.0f};
-        default:
-            return {-p.s, -p.t, -1.0f};
-    }
-}
-
-/// The texel at x, y of a face; one step over an edge it is the neighbouring face's border texel.
-glm::vec3 texel_across(const CubeMap& cube, int face, int x, int y) {
-    const auto center = [&](int i) {
-        const float c = (2.0f * float(i) + 1.0f) / float(cube.size) - 1.0f;
-        return std::clamp(c, -1.0f - 1e-4f, 1.0f + 1e-4f);  // just over the edge: the other coordinate stays
-    };
-    const FacePoint p = face_point(face_direction({face, center(x), center(y)}));
-    const auto index = [&](float c) {
-        return std::clamp(int(std::floor((c + 1.0f) * 0.5f * float(cube.size))), 0, cube.size - 1);
-    };
-    return cube.texels[(std::size_t(p.face) * cube.size + index(p.t)) * cube.size + index(p.s)];
-}
-
-glm::vec3 bilinear(const CubeMap& cube, int face, float x, float y) {
-    const int x0 = int(std::floor(x));
-    const int y0 = int(std::floor(y));
-    const float fx = x - float(x0);
-    const float fy = y - float(y0);
-    const glm::vec3 upper =
-        (1.0f - fx) * texel_across(cube, face, x0, y0) + fx * texel_across(cube, face, x0 + 1, y0);
-    const glm::vec3 lower =
-        (1.0f - fx) * texel_across(cube, face, x0, y0 + 1) + fx * texel_across(cube, face, x0 + 1, y0 + 1);
-    return (1.0f - fy) * upper + fy * lower;
-}
+constexpr std::size_t kHalfTexel = 4 * sizeof(std::uint16_t);
 
 void set_cube_filter(GLenum target, GLenum minify, int mips) {
     glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GLint(minify));
@@ -96,14 +21,12 @@ void set_cube_filter(GLenum target, GLenum minify, int mips) {
     glTexParameteri(target, GL_TEXTURE_MAX_LEVEL, mips - 1);
 }
 
-void upload_panorama(const PanoramaLevels& panorama, GpuEnvironment& result) {
+void make_panorama(const PanoramaLevels& panorama, GpuEnvironment& result) {
     result.panorama = Texture::make();
     glBindTexture(GL_TEXTURE_2D, result.panorama.name());
-    for (std::size_t i = 0; i < panorama.levels.size(); ++i) {
-        const auto& level = panorama.levels[i];
-        glTexImage2D(GL_TEXTURE_2D, GLint(i), GL_RGBA16F, level.width, level.height, 0, GL_RGBA,
-                     GL_HALF_FLOAT, level.rgba.data());
-    }
+    for (std::size_t i = 0; i < panorama.levels.size(); ++i)
+        glTexImage2D(GL_TEXTURE_2D, GLint(i), GL_RGBA16F, panorama.levels[i].width, panorama.levels[i].height,
+                     0, GL_RGBA, GL_HALF_FLOAT, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
@@ -113,85 +36,86 @@ void upload_panorama(const PanoramaLevels& panorama, GpuEnvironment& result) {
     result.texels_per_radian = float(panorama.levels[0].height / M_PI);
 }
 
-void upload_levels(const std::vector<PrefilteredLevel>& levels, GpuEnvironment& result) {
-    std::vector<int> sizes;
-    float largest = 0.0f;
-    for (const PrefilteredLevel& level : levels) {
-        sizes.push_back(level.cube.size);
-        largest = std::max(largest, largest_of(level.cube));
-        result.roughness.push_back(level.roughness);
-    }
-    const int exponent = half_exponent(largest);
-    result.levels_scale = std::ldexp(1.0f, exponent);
-    result.layers = layers_for(sizes);
-    const int base = *std::max_element(sizes.begin(), sizes.end());
-    const int mips = (int(levels.size()) + result.layers - 1) / result.layers;
+void make_levels(const LightLevels& light, GpuEnvironment& result) {
+    const int base = light.levels.front().size;
+    const int mips = (int(light.levels.size()) + light.layers - 1) / light.layers;
     result.levels = Texture::make();
     glBindTexture(GL_TEXTURE_CUBE_MAP_ARRAY, result.levels.name());
     for (int mip = 0; mip < mips; ++mip) {
         const int size = std::max(base >> mip, 1);
-        glTexImage3D(GL_TEXTURE_CUBE_MAP_ARRAY, mip, GL_RGBA16F, size, size, 6 * result.layers, 0, GL_RGBA,
+        glTexImage3D(GL_TEXTURE_CUBE_MAP_ARRAY, mip, GL_RGBA16F, size, size, 6 * light.layers, 0, GL_RGBA,
                      GL_HALF_FLOAT, nullptr);
     }
-    for (int k = 0; k < int(levels.size()); ++k) {
-        const int mip = k / result.layers;
-        const int size = std::max(base >> mip, 1);
-        const CubeMap& cube = levels[k].cube;
-        const auto rgba = to_halves(cube.size == size ? cube : enlarged(cube, size), exponent);
-        glTexSubImage3D(GL_TEXTURE_CUBE_MAP_ARRAY, mip, 0, 0, 6 * (k % result.layers), size, size, 6, GL_RGBA,
-                        GL_HALF_FLOAT, rgba.data());
-    }
     set_cube_filter(GL_TEXTURE_CUBE_MAP_ARRAY, GL_LINEAR_MIPMAP_NEAREST, mips);
+    result.levels_scale = std::ldexp(1.0f, light.levels_exponent);
+    result.layers = light.layers;
+    result.roughness = light.roughness;
 }
 
-void upload_irradiance(const CubeMap& cube, GpuEnvironment& result) {
-    const int exponent = half_exponent(largest_of(cube));
-    const auto rgba = to_halves(cube, exponent);
+void make_irradiance(const LightLevels& light, GpuEnvironment& result) {
+    const LightLevels::Cube& cube = light.irradiance;
     const std::size_t face = 4 * std::size_t(cube.size) * cube.size;
-    result.irradiance_scale = std::ldexp(1.0f, exponent);
+    result.irradiance_scale = std::ldexp(1.0f, light.irradiance_exponent);
     result.irradiance = Texture::make();
     glBindTexture(GL_TEXTURE_CUBE_MAP, result.irradiance.name());
     for (int i = 0; i < 6; ++i)
         glTexImage2D(GLenum(GL_TEXTURE_CUBE_MAP_POSITIVE_X + i), 0, GL_RGBA16F, cube.size, cube.size, 0,
-                     GL_RGBA, GL_HALF_FLOAT, rgba.data() + i * face);
+                     GL_RGBA, GL_HALF_FLOAT, cube.rgba.data() + i * face);
     set_cube_filter(GL_TEXTURE_CUBE_MAP, GL_LINEAR, 1);
 }
 
 }  // namespace
 
-int layers_for(const std::vector<int>& sizes) {
-    const int count = int(sizes.size());
-    const int base = *std::max_element(sizes.begin(), sizes.end());
-    for (int layers = 1; layers < count; ++layers) {
-        bool fits = true;
-        for (int k = 0; k < count; ++k) fits = fits && (base >> (k / layers)) >= sizes[k];
-        if (fits) return layers;
-    }
-    return count;
-}
-
-CubeMap enlarged(const CubeMap& cube, int size) {
-    CubeMap result{size, std::vector<glm::vec3>(std::size_t(6) * size * size)};
-    const float ratio = float(cube.size) / float(size);
-    for (int row = 0; row < 6 * size; ++row)
-        for (int x = 0; x < size; ++x)
-            result.texels[std::size_t(row) * size + x] =
-                bilinear(cube, row / size, (float(x) + 0.5f) * ratio - 0.5f,
-                         (float(row % size) + 0.5f) * ratio - 0.5f);
-    return result;
-}
-
-GpuEnvironment make_environment_textures(const PanoramaLevels& panorama, const BakedEnvironment& baked) {
-    if (baked.levels.empty() || baked.irradiance.size < 1 || panorama.levels.empty())
+EnvironmentWriter::EnvironmentWriter(const PreparedLight& light) {
+    if (light.panorama.levels.empty() || light.levels.levels.empty())
         throw std::runtime_error("The light has no levels to draw with: bake it again.");
     const KeepTextureBindings keep;
-    GpuEnvironment result;
-    upload_panorama(panorama, result);
-    upload_levels(baked.levels, result);
-    upload_irradiance(baked.irradiance, result);
-    result.lights = baked.lights;
+    make_panorama(light.panorama, environment_);
+    make_levels(light.levels, environment_);
+    make_irradiance(light.levels, environment_);
+    environment_.lights = light.levels.lights;
     check_memory("the light");
-    return result;
+}
+
+/// A level of the bake, whole: at most some megabytes.
+std::size_t EnvironmentWriter::write_cube(const LightLevels& light) {
+    const int k = int(next_cube_++);
+    const LightLevels::Cube& cube = light.levels[k];
+    glBindTexture(GL_TEXTURE_CUBE_MAP_ARRAY, environment_.levels.name());
+    glTexSubImage3D(GL_TEXTURE_CUBE_MAP_ARRAY, k / light.layers, 0, 0, 6 * (k % light.layers), cube.size,
+                    cube.size, 6, GL_RGBA, GL_HALF_FLOAT, cube.rgba.data());
+    return cube.rgba.size() * sizeof cube.rgba[0];
+}
+
+/// Rows of the panorama, as many as fit.
+std::size_t EnvironmentWriter::write_rows(const PanoramaLevels& panorama, std::size_t byte_budget) {
+    const PanoramaLevels::Level& level = panorama.levels[level_];
+    const std::size_t row_bytes = std::size_t(level.width) * kHalfTexel;
+    const int rows =
+        int(std::clamp<std::size_t>(byte_budget / row_bytes, 1, std::size_t(level.height - row_)));
+    glBindTexture(GL_TEXTURE_2D, environment_.panorama.name());
+    glTexSubImage2D(GL_TEXTURE_2D, GLint(level_), 0, row_, level.width, rows, GL_RGBA, GL_HALF_FLOAT,
+                    level.rgba.data() + std::size_t(row_) * level.width * 4);
+    row_ += rows;
+    if (row_ == level.height) {
+        row_ = 0;
+        ++level_;
+    }
+    return std::size_t(rows) * row_bytes;
+}
+
+bool EnvironmentWriter::step(const PreparedLight& light, std::size_t byte_budget) {
+    const KeepTextureBindings keep;
+    std::size_t spent = 0;
+    while (spent == 0 || spent < byte_budget) {
+        if (next_cube_ < light.levels.levels.size())
+            spent += write_cube(light.levels);
+        else if (level_ < light.panorama.levels.size())
+            spent += write_rows(light.panorama, byte_budget > spent ? byte_budget - spent : 0);
+        else
+            return true;
+    }
+    return false;
 }
 
 }  // namespace patina::gl

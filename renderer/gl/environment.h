@@ -2,19 +2,17 @@
 #pragma once
 
 #include "renderer/gl/handles.h"
-#include "renderer/gl/panorama.h"
-#include "renderer/ibl/bake.h"
+#include "renderer/gl/light_levels.h"
 
-#include <glm/vec4.hpp>
-
-#include <array>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace patina {
 
 struct GpuEnvironment {
     gl::Texture panorama;
-    gl::Texture levels;  ///< level k in layer k mod layers, mip k div layers
+    gl::Texture levels;  ///< laid out as LightLevels says
     gl::Texture irradiance;
     float panorama_scale = 1.0f;  ///< powers of two that undo how the half floats are stored
     float levels_scale = 1.0f;
@@ -27,14 +25,23 @@ struct GpuEnvironment {
 
 namespace gl {
 
-GpuEnvironment make_environment_textures(const PanoramaLevels& panorama, const BakedEnvironment& baked);
+/// Light on its way to the GPU, a portion at a time. Always the same light.
+class EnvironmentWriter {
+public:
+    explicit EnvironmentWriter(const PreparedLight& light);
+    /// Copies about byte_budget bytes; true when all is there.
+    bool step(const PreparedLight& light, std::size_t byte_budget);
+    GpuEnvironment take() { return std::move(environment_); }
 
-/// How levels are laid out in mips of a cube-map array so that each gets at least its own size: the fewest
-/// layers with (first size >> k / layers) ≥ sizes[k] for all k.
-int layers_for(const std::vector<int>& sizes);
+private:
+    std::size_t write_cube(const LightLevels& light);
+    std::size_t write_rows(const PanoramaLevels& panorama, std::size_t byte_budget);
 
-/// The same light on faces of another size, bilinear across edges. Precondition: size ≥ cube.size.
-CubeMap enlarged(const CubeMap& cube, int size);
+    GpuEnvironment environment_;
+    std::size_t next_cube_ = 0;  ///< what comes next
+    std::size_t level_ = 0;
+    int row_ = 0;
+};
 
 }  // namespace gl
 }  // namespace patina

@@ -1,91 +1,15 @@
 #include "renderer/gl/mesh.h"
 
-#include "renderer/core/hash.h"
 #include "renderer/gl/texture.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <numeric>
-#include <span>
-#include <unordered_map>
-#include <utility>
-#include <vector>
 
 namespace patina::gl {
 
 namespace {
-
-template <class V>
-void make_finite(V& v) {
-    for (int i = 0; i < V::length(); ++i)
-        if (!std::isfinite(v[i])) v[i] = 0.0f;
-}
-
-std::vector<Vertex> clean_vertices(const Mesh& mesh) {
-    std::vector<Vertex> vertices = mesh.vertices;
-    for (Vertex& vertex : vertices) {
-        make_finite(vertex.position);
-        make_finite(vertex.normal);
-        make_finite(vertex.uv);
-        if (mesh.has_tangents)
-            make_finite(vertex.tangent);
-        else
-            vertex.tangent = glm::vec4(0.0f);
-    }
-    return vertices;
-}
-
-/// Index order such that each triangle's own normal is on the side of its vertices' normals.
-std::vector<std::uint32_t> oriented_indices(const std::vector<Vertex>& vertices,
-                                            std::vector<std::uint32_t> indices) {
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-        const Vertex& a = vertices[indices[i]];
-        const Vertex& b = vertices[indices[i + 1]];
-        const Vertex& c = vertices[indices[i + 2]];
-        const glm::vec3 face = glm::cross(b.position - a.position, c.position - a.position);
-        if (glm::dot(face, a.normal + b.normal + c.normal) < 0.0f) std::swap(indices[i + 1], indices[i + 2]);
-    }
-    return indices;
-}
-
-struct PositionHash {
-    std::size_t operator()(const glm::vec3& p) const {
-        return std::size_t(hash_bytes(std::as_bytes(std::span(&p.x, 3))));
-    }
-};
-
-/// A number per position, the same for equal ones.
-std::vector<std::uint32_t> position_ids(const std::vector<Vertex>& vertices) {
-    std::unordered_map<glm::vec3, std::uint32_t, PositionHash> known;
-    std::vector<std::uint32_t> ids;
-    ids.reserve(vertices.size());
-    for (const Vertex& vertex : vertices) {
-        const glm::vec3 position = vertex.position + 0.0f;  // −0 becomes 0
-        ids.push_back(known.try_emplace(position, std::uint32_t(known.size())).first->second);
-    }
-    return ids;
-}
-
-std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
-/// What a connected part adds up to. An edge counts + in one direction and − in the other, under a hash of
-/// its ends: the sum is 0 where each is walked as often either way, that is, where the part has no boundary.
-struct Part {
-    std::uint64_t boundary = 0;
-    double volume = 0.0;
-};
-std::uint64_t edge_term(std::uint32_t from, std::uint32_t to) {
-    if (from == to) return 0;
-    const std::uint32_t ends[] = {std::min(from, to), std::max(from, to)};
-    const std::uint64_t hash = hash_bytes(std::as_bytes(std::span(ends)));
-    return from < to ? hash : ~hash + 1;
-}
 
 void attribute(GLuint index, GLint components, std::size_t offset) {
     glEnableVertexAttribArray(index);
@@ -93,58 +17,61 @@ void attribute(GLuint index, GLint components, std::size_t offset) {
                           reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr)
 }
 
+/// The one array and its two buffers, put back at the end.
+class KeepMeshBindings {
+public:
+    KeepMeshBindings() {
+        glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &array_);
+        glGetIntegerv(GL_ARRAY_BUFFER_BINDING, &buffer_);
+    }
+    ~KeepMeshBindings() {
+        glBindVertexArray(GLuint(array_));
+        glBindBuffer(GL_ARRAY_BUFFER, GLuint(buffer_));
+    }
+    KeepMeshBindings(const KeepMeshBindings&) = delete;
+    KeepMeshBindings& operator=(const KeepMeshBindings&) = delete;
+
+private:
+    GLint array_ = 0, buffer_ = 0;
+};
+
+GLsizeiptr bytes_of(const auto& values) { return GLsizeiptr(values.size() * sizeof(values[0])); }
+
 }  // namespace
 
-bool is_closed(const std::vector<Vertex>& vertices, const std::vector<std::uint32_t>& indices) {
-    constexpr std::size_t most_indices = 600'000;
-    if (indices.size() > most_indices) return false;
-    const auto ids = position_ids(vertices);
-    std::vector<std::uint32_t> parent(vertices.size());
-    std::iota(parent.begin(), parent.end(), 0u);
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
-        for (int k = 1; k < 3; ++k)
-            parent[root_of(parent, ids[indices[i + k]])] = root_of(parent, ids[indices[i]]);
-    std::unordered_map<std::uint32_t, Part> parts;
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-        Part& part = parts[root_of(parent, ids[indices[i]])];
-        glm::dvec3 p[3];
-        for (int k = 0; k < 3; ++k) {
-            p[k] = glm::dvec3(vertices[indices[i + k]].position);
-            part.boundary += edge_term(ids[indices[i + k]], ids[indices[i + (k + 1) % 3]]);
-        }
-        part.volume += glm::dot(p[0], glm::cross(p[1], p[2]));
-    }
-    return std::all_of(parts.begin(), parts.end(), [](const auto& entry) {
-        return entry.second.boundary == 0 && entry.second.volume > 0.0;
-    });
-}
-
-GpuMesh make_mesh_buffers(const Mesh& mesh) {
-    GLint array = 0;
-    GLint buffer = 0;
-    glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &array);
-    glGetIntegerv(GL_ARRAY_BUFFER_BINDING, &buffer);
-    const std::vector<Vertex> vertices = clean_vertices(mesh);
-    const std::vector<std::uint32_t> indices = oriented_indices(vertices, mesh.indices);
-    GpuMesh result{VertexArray::make(), Buffer::make(), Buffer::make(), GLsizei(indices.size())};
-    result.is_closed = is_closed(vertices, indices);
-    for (const Vertex& vertex : vertices)
-        result.radius = std::max(result.radius, glm::length(vertex.position));
-    glBindVertexArray(result.layout.name());
-    glBindBuffer(GL_ARRAY_BUFFER, result.vertices.name());
-    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(vertices.size() * sizeof(Vertex)), vertices.data(),
-                 GL_STATIC_DRAW);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, result.indices.name());
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices.size() * sizeof(indices[0])), indices.data(),
-                 GL_STATIC_DRAW);
+MeshWriter::MeshWriter(const PreparedMesh& mesh)
+    : mesh_{VertexArray::make(),          Buffer::make(), Buffer::make(),
+            GLsizei(mesh.indices.size()), mesh.is_closed, mesh.radius} {
+    const KeepMeshBindings keep;
+    glBindVertexArray(mesh_.layout.name());
+    glBindBuffer(GL_ARRAY_BUFFER, mesh_.vertices.name());
+    glBufferData(GL_ARRAY_BUFFER, bytes_of(mesh.vertices), nullptr, GL_STATIC_DRAW);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh_.indices.name());
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, bytes_of(mesh.indices), nullptr, GL_STATIC_DRAW);
     attribute(Position, 3, offsetof(Vertex, position));
     attribute(Normal, 3, offsetof(Vertex, normal));
     attribute(Uv, 2, offsetof(Vertex, uv));
     attribute(Tangent, 4, offsetof(Vertex, tangent));
-    glBindVertexArray(GLuint(array));
-    glBindBuffer(GL_ARRAY_BUFFER, GLuint(buffer));
     check_memory("the mesh");
-    return result;
+}
+
+bool MeshWriter::step(const PreparedMesh& mesh, std::size_t byte_budget) {
+    const KeepMeshBindings keep;
+    glBindVertexArray(0);  // the index buffer's binding belongs to an array: none is to be changed
+    glBindBuffer(GL_ARRAY_BUFFER, mesh_.vertices.name());
+    const auto copy = [&](const auto& values, std::size_t& written) {
+        const std::size_t bytes = std::min(byte_budget, std::size_t(bytes_of(values)) - written);
+        if (bytes == 0) return;
+        const auto* from = reinterpret_cast<const std::byte*>(values.data()) + written;
+        glBufferSubData(GL_ARRAY_BUFFER, GLintptr(written), GLsizeiptr(bytes), from);
+        written += bytes;
+        byte_budget -= bytes;
+    };
+    copy(mesh.vertices, vertex_bytes_);
+    glBindBuffer(GL_ARRAY_BUFFER, mesh_.indices.name());
+    copy(mesh.indices, index_bytes_);
+    return GLsizeiptr(vertex_bytes_) == bytes_of(mesh.vertices) &&
+           GLsizeiptr(index_bytes_) == bytes_of(mesh.indices);
 }
 
 void draw_mesh(const GpuMesh& mesh, const glm::vec3& eye) {

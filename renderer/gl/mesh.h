@@ -1,8 +1,11 @@
 // A mesh on the GPU.
 #pragma once
 
-#include "renderer/core/mesh.h"
 #include "renderer/gl/handles.h"
+#include "renderer/gl/mesh_prepare.h"
+
+#include <cstddef>
+#include <utility>
 
 namespace patina {
 
@@ -11,8 +14,8 @@ struct GpuMesh {
     gl::Buffer vertices;
     gl::Buffer indices;
     GLsizei index_count = 0;
-    bool is_closed = false;  ///< its back faces cannot be seen from outside the bounding sphere
-    float radius = 0.0f;     ///< of the bounding sphere around the origin
+    bool is_closed = false;  ///< as PreparedMesh has them
+    float radius = 0.0f;
 };
 
 namespace gl {
@@ -20,15 +23,20 @@ namespace gl {
 /// Vertex attributes, by name in the shaders.
 enum Attribute : GLuint { Position, Normal, Uv, Tangent };
 
-/// Numbers that are not finite become 0; tangents that were not computed become 0, which the shader
-/// recognises. Triangles are wound to agree with their normals: the front is the side the normals are on.
-GpuMesh make_mesh_buffers(const Mesh& mesh);
+/// A mesh on its way to the GPU, a portion at a time.
+class MeshWriter {
+public:
+    explicit MeshWriter(const PreparedMesh& mesh);
+    /// Copies up to byte_budget bytes of the same mesh; true when all is there.
+    bool step(const PreparedMesh& mesh, std::size_t byte_budget);
+    GpuMesh take() { return std::move(mesh_); }
+
+private:
+    GpuMesh mesh_;
+    std::size_t vertex_bytes_ = 0, index_bytes_ = 0;  ///< copied so far
+};
 /// Both sides; of a closed mesh seen from outside only the front.
 void draw_mesh(const GpuMesh& mesh, const glm::vec3& eye);
-
-/// True if the surface encloses volume: each connected part (by position) has no boundary and is wound
-/// outwards. Meshes too large to be looked through in a few milliseconds count as open.
-bool is_closed(const std::vector<Vertex>& vertices, const std::vector<std::uint32_t>& indices);
 
 }  // namespace gl
 }  // namespace patina

@@ -115,7 +115,6 @@ TextureWriter::TextureWriter(const std::vector<Image>& levels, bool srgb) {
         const Format format = format_of(levels[i], srgb);
         glTexImage2D(GL_TEXTURE_2D, i - first_level_, GLint(format.internal), levels[i].width,
                      levels[i].height, 0, format.external, format.type, nullptr);
-        total_ += row_bytes(levels[i]) * levels[i].height;
     }
     check_memory("a map");
 }
@@ -137,12 +136,7 @@ bool TextureWriter::step(const std::vector<Image>& levels, std::size_t byte_budg
         row_ = 0;
         --level_;
     }
-    written_ += spent;
     return level_ < first_level_;
-}
-
-float TextureWriter::fraction() const {
-    return float(double(written_) / double(std::max<std::size_t>(total_, 1)));
 }
 
 GpuMap make_interface_texture(const Image& image) {

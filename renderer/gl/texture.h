@@ -40,7 +40,6 @@ public:
     TextureWriter(const std::vector<Image>& levels, bool srgb);
     /// Copies about byte_budget bytes (at least one row); true when all is there.
     bool step(const std::vector<Image>& levels, std::size_t byte_budget);
-    float fraction() const;
     GpuMap take() { return std::move(map_); }
 
 private:
@@ -48,7 +47,6 @@ private:
     int first_level_ = 0;  ///< levels[first_level_] is the texture's level 0
     int level_ = 0;        ///< next to be written, counting down to first_level_
     int row_ = 0;
-    std::size_t written_ = 0, total_ = 0;
 };
 
 /// One 8-bit level for the interface: as stored, no mip maps, clamped.

@@ -1,6 +1,6 @@
-#include "renderer/gl/environment.h"
 #include "renderer/gl/half.h"
-#include "renderer/gl/mesh.h"
+#include "renderer/gl/light_levels.h"
+#include "renderer/gl/mesh_prepare.h"
 #include "tests/gl/scene.h"
 
 #include <gtest/gtest.h>
@@ -193,11 +193,11 @@ TEST(Panorama, halves_round_to_nearest_even) {
 }
 
 TEST(Levels, the_fewest_layers_that_give_each_level_its_size) {
-    EXPECT_EQ(gl::layers_for({64}), 1);
-    EXPECT_EQ(gl::layers_for({128, 64, 32}), 1);
-    EXPECT_EQ(gl::layers_for({128, 128, 64, 64, 32}), 2);
-    EXPECT_EQ(gl::layers_for({128, 128, 128, 128, 128, 64, 64, 64, 64, 64, 64, 64, 32, 32, 32, 32}), 6);
-    EXPECT_EQ(gl::layers_for({64, 64, 64}), 3);
+    EXPECT_EQ(layers_for({64}), 1);
+    EXPECT_EQ(layers_for({128, 64, 32}), 1);
+    EXPECT_EQ(layers_for({128, 128, 64, 64, 32}), 2);
+    EXPECT_EQ(layers_for({128, 128, 128, 128, 128, 64, 64, 64, 64, 64, 64, 64, 32, 32, 32, 32}), 6);
+    EXPECT_EQ(layers_for({64, 64, 64}), 3);
 }
 
 TEST(Levels, enlarging_a_cube_keeps_smooth_light_and_has_no_seams) {
@@ -205,7 +205,7 @@ TEST(Levels, enlarging_a_cube_keeps_smooth_light_and_has_no_seams) {
     for (int row = 0; row < 96; ++row)
         for (int x = 0; x < 16; ++x)
             cube.texels.push_back(linear_radiance(cube_texel_direction(16, row / 16, x, row % 16)));
-    const CubeMap large = gl::enlarged(cube, 64);
+    const CubeMap large = enlarged(cube, 64);
     for (int row = 0; row < 6 * 64; ++row) {
         for (int x = 0; x < 64; ++x) {
             const glm::vec3 expected = linear_radiance(cube_texel_direction(64, row / 64, x, row % 64));
@@ -220,15 +220,15 @@ TEST(Meshes, are_closed_where_nothing_can_be_seen_from_inside) {
     for (const BuiltinMesh& builtin : builtin_meshes()) {
         const Mesh mesh = builtin.make();
         const bool expected = builtin.id != "quad";
-        EXPECT_EQ(gl::is_closed(mesh.vertices, mesh.indices), expected) << builtin.id;
+        EXPECT_EQ(is_closed(mesh.vertices, mesh.indices), expected) << builtin.id;
         if (!expected) continue;
         Mesh open = mesh;
         open.indices.resize(open.indices.size() - 3);
-        EXPECT_FALSE(gl::is_closed(open.vertices, open.indices)) << builtin.id;
+        EXPECT_FALSE(is_closed(open.vertices, open.indices)) << builtin.id;
         Mesh inside_out = mesh;
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
             std::swap(inside_out.indices[i], inside_out.indices[i + 1]);
-        EXPECT_FALSE(gl::is_closed(inside_out.vertices, inside_out.indices)) << builtin.id;
+        EXPECT_FALSE(is_closed(inside_out.vertices, inside_out.indices)) << builtin.id;
     }
 }
 

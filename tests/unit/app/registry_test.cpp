@@ -38,11 +38,12 @@ TEST(Registry, an_added_part_is_found_by_name_and_by_extension) {
                                    mesh.name = "dot";
                                    return mesh;
                                }});
-    registry.mesh_importers.push_back({"void", "Nothing.", {"void"}, [](const std::filesystem::path&) {
-                                           Mesh mesh;
-                                           mesh.name = "nothing";
-                                           return mesh;
-                                       }});
+    registry.mesh_importers.push_back(
+        {"void", "Nothing.", {"void"}, [](const std::filesystem::path&, const std::stop_token&) {
+             Mesh mesh;
+             mesh.name = "nothing";
+             return mesh;
+         }});
     EXPECT_EQ(load_mesh_part(registry, "dot").name, "dot");
     EXPECT_EQ(load_mesh_part(registry, "some/file.VOID").name, "nothing");
 }

@@ -1,0 +1,142 @@
+#include "renderer/gl/light_levels.h"
+
+#include "renderer/gl/half.h"
+#include "renderer/gl/panorama.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace patina {
+
+namespace {
+
+using gl::to_half;
+
+float largest_of(const CubeMap& cube) {
+    float largest = 0.0f;
+    for (const glm::vec3& texel : cube.texels) largest = std::max({largest, texel.x, texel.y, texel.z});
+    return largest;
+}
+
+std::vector<std::uint16_t> to_halves(const CubeMap& cube, int exponent) {
+    std::vector<std::uint16_t> rgba(4 * cube.texels.size());
+    const float scale = std::ldexp(1.0f, -exponent);
+    for (std::size_t i = 0; i < cube.texels.size(); ++i) {
+        for (int c = 0; c < 3; ++c) rgba[4 * i + c] = to_half(cube.texels[i][c] * scale);
+        rgba[4 * i + 3] = to_half(1.0f);
+    }
+    return rgba;
+}
+
+struct FacePoint {
+    int face = 0;
+    float s = 0.0f;  ///< −1…1 along the row
+    float t = 0.0f;  ///< −1…1 down the column
+};
+
+/// OpenGL's table of cube faces (specification, "Cube Map Texture Selection").
+FacePoint face_point(glm::vec3 d) {
+    const glm::vec3 a = glm::abs(d);
+    if (a.x >= a.y && a.x >= a.z)
+        return d.x > 0.0f ? FacePoint{0, -d.z / a.x, -d.y / a.x} : FacePoint{1, d.z / a.x, -d.y / a.x};
+    if (a.y >= a.z)
+        return d.y > 0.0f ? FacePoint{2, d.x / a.y, d.z / a.y} : FacePoint{3, d.x / a.y, -d.z / a.y};
+    return d.z > 0.0f ? FacePoint{4, d.x / a.z, -d.y / a.z} : FacePoint{5, -d.x / a.z, -d.y / a.z};
+}
+
+glm::vec3 face_direction(FacePoint p) {
+    switch (p.face) {
+        case 0:
+            return {1.0f, -p.t, -p.s};
+        case 1:
+            return {-1.0f, -p.t, p.s};
+        case 2:
+            return {p.s, 1.0f, p.t};
+        case 3:
+            return {p.s, -1.0f, -p.t};
+        case 4:
+            return {p.s, -p.t, 1.0f};
+        default:
+            return {-p.s, -p.t, -1.0f};
+    }
+}
+
+/// The texel at x, y of a face; one step over an edge it is the neighbouring face's border texel.
+glm::vec3 texel_across(const CubeMap& cube, int face, int x, int y) {
+    const auto center = [&](int i) {
+        const float c = (2.0f * float(i) + 1.0f) / float(cube.size) - 1.0f;
+        return std::clamp(c, -1.0f - 1e-4f, 1.0f + 1e-4f);  // just over the edge: the other coordinate stays
+    };
+    const FacePoint p = face_point(face_direction({face, center(x), center(y)}));
+    const auto index = [&](float c) {
+        return std::clamp(int(std::floor((c + 1.0f) * 0.5f * float(cube.size))), 0, cube.size - 1);
+    };
+    return cube.texels[(std::size_t(p.face) * cube.size + index(p.t)) * cube.size + index(p.s)];
+}
+
+glm::vec3 bilinear(const CubeMap& cube, int face, float x, float y) {
+    const int x0 = int(std::floor(x));
+    const int y0 = int(std::floor(y));
+    const float fx = x - float(x0);
+    const float fy = y - float(y0);
+    const glm::vec3 upper =
+        (1.0f - fx) * texel_across(cube, face, x0, y0) + fx * texel_across(cube, face, x0 + 1, y0);
+    const glm::vec3 lower =
+        (1.0f - fx) * texel_across(cube, face, x0, y0 + 1) + fx * texel_across(cube, face, x0 + 1, y0 + 1);
+    return (1.0f - fy) * upper + fy * lower;
+}
+
+}  // namespace
+
+int layers_for(const std::vector<int>& sizes) {
+    const int count = int(sizes.size());
+    const int base = *std::max_element(sizes.begin(), sizes.end());
+    for (int layers = 1; layers < count; ++layers) {
+        bool fits = true;
+        for (int k = 0; k < count; ++k) fits = fits && (base >> (k / layers)) >= sizes[k];
+        if (fits) return layers;
+    }
+    return count;
+}
+
+CubeMap enlarged(const CubeMap& cube, int size) {
+    CubeMap result{size, std::vector<glm::vec3>(std::size_t(6) * size * size)};
+    const float ratio = float(cube.size) / float(size);
+    for (int row = 0; row < 6 * size; ++row)
+        for (int x = 0; x < size; ++x)
+            result.texels[std::size_t(row) * size + x] =
+                bilinear(cube, row / size, (float(x) + 0.5f) * ratio - 0.5f,
+                         (float(row % size) + 0.5f) * ratio - 0.5f);
+    return result;
+}
+
+LightLevels make_light_levels(const BakedEnvironment& baked) {
+    if (baked.levels.empty() || baked.irradiance.size < 1)
+        throw std::runtime_error("The light has no levels to draw with: bake it again.");
+    std::vector<int> sizes;
+    float largest = 0.0f;
+    LightLevels result;
+    for (const PrefilteredLevel& level : baked.levels) {
+        sizes.push_back(level.cube.size);
+        largest = std::max(largest, largest_of(level.cube));
+        result.roughness.push_back(level.roughness);
+    }
+    result.levels_exponent = half_exponent(largest);
+    result.layers = layers_for(sizes);
+    const int base = *std::max_element(sizes.begin(), sizes.end());
+    for (int k = 0; k < int(baked.levels.size()); ++k) {
+        const int size = std::max(base >> (k / result.layers), 1);
+        const CubeMap& cube = baked.levels[k].cube;
+        result.levels.push_back(
+            {size, to_halves(cube.size == size ? cube : enlarged(cube, size), result.levels_exponent)});
+    }
+    result.irradiance_exponent = half_exponent(largest_of(baked.irradiance));
+    result.irradiance = {baked.irradiance.size, to_halves(baked.irradiance, result.irradiance_exponent)};
+    result.lights = baked.lights;
+    return result;
+}
+
+}  // namespace patina

@@ -1,0 +1,43 @@
+// Baked light as the GPU samples it: half floats, laid out in the mips and layers of one cube-map array.
+// Pure; no GL is called, so it can be made on a worker.
+#pragma once
+
+#include "renderer/gl/panorama.h"
+#include "renderer/ibl/bake.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace patina {
+
+struct LightLevels {
+    struct Cube {
+        int size = 0;
+        std::vector<std::uint16_t> rgba;  ///< six faces of half floats, radiance · 2^−exponent
+    };
+    std::vector<Cube>
+        levels;  ///< level k goes to layer k mod layers of mip k div layers, and has that mip's size
+    int layers = 1;
+    int levels_exponent = 0, irradiance_exponent = 0;
+    Cube irradiance;
+    std::vector<float> roughness;  ///< of each level, ascending
+    std::vector<ExtractedLight> lights;
+};
+
+/// All of an environment that goes to the GPU.
+struct PreparedLight {
+    PanoramaLevels panorama;
+    LightLevels levels;
+};
+
+/// Throws std::runtime_error where there is no light to draw with.
+LightLevels make_light_levels(const BakedEnvironment& baked);
+
+/// How levels are laid out in mips of a cube-map array so that each gets at least its own size: the fewest
+/// layers with (first size >> k / layers) ≥ sizes[k] for all k.
+int layers_for(const std::vector<int>& sizes);
+
+/// The same light on faces of another size, bilinear across edges. Precondition: size ≥ cube.size.
+CubeMap enlarged(const CubeMap& cube, int size);
+
+}  // namespace patina
