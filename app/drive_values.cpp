@@ -110,6 +110,8 @@ constexpr std::array kValues{
     NamedValue{
         "lights_baked",
         [](const DriveView& v) { return std::to_string(v.editor.reconciler.counts().environments_baked); }},
+    NamedValue{"pending",
+               [](const DriveView& v) { return std::string(v.editor.reconciler.pending() ? "yes" : "no"); }},
     NamedValue{"lights_from_disk",
                [](const DriveView& v) {
                    return std::to_string(v.editor.reconciler.counts().environments_from_disk);

@@ -161,6 +161,36 @@ TEST(Light, a_sharp_lobe_keeps_the_light_of_what_it_covers) {
     }
 }
 
+TEST(Light, an_upload_in_portions_ends_in_the_same_picture) {
+    const auto radiance = [](glm::vec3 d) { return glm::vec3(1.0f + d.x, 1.0f + d.y, 1.0f + d.z); };
+    const Environment environment = make_panorama(radiance, 256);
+    const BakedEnvironment baked = make_baked([&](glm::vec3 d, float r) { return r * radiance(d); }, 32);
+    Scene scene = make_scene(renderer().upload_environment(environment, baked), sphere());
+    const Image at_once = radiance_of(scene);
+    const auto light = std::make_shared<PreparedLight>(
+        PreparedLight{make_panorama_levels(environment), make_light_levels(baked)});
+    const Upload<GpuEnvironment> upload = Renderer::begin_upload(light);
+    int steps = 1;
+    while (!upload.step(20'000)) ++steps;
+    EXPECT_GT(steps, 12);
+    scene.environment = upload.finish();
+    EXPECT_EQ(radiance_of(scene).bytes, at_once.bytes);
+}
+
+TEST(Mesh, an_upload_in_portions_ends_in_the_same_picture) {
+    Scene scene = make_scene(linear_light(), nullptr);
+    const Mesh torus = builtin_meshes()[3].make();
+    scene.mesh = renderer().upload_mesh(torus);
+    const Image at_once = radiance_of(scene);
+    const Upload<GpuMesh> upload =
+        Renderer::begin_upload(std::make_shared<PreparedMesh>(prepare_mesh(torus)));
+    int steps = 1;
+    while (!upload.step(50'000)) ++steps;
+    EXPECT_GT(steps, 5);
+    scene.mesh = upload.finish();
+    EXPECT_EQ(radiance_of(scene).bytes, at_once.bytes);
+}
+
 TEST(Panorama, levels_keep_the_mean_of_every_row_and_agree_at_the_poles) {
     const Environment environment = make_panorama([](glm::vec3 d) { return waves(d); }, 64);
     const PanoramaLevels levels = make_panorama_levels(environment);

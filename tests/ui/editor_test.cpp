@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <unistd.h>
 
 namespace {
 
@@ -349,6 +350,50 @@ TEST(Editor, says_in_one_line_that_there_is_no_display) {
     EXPECT_EQ(outcome.status, 1);
     EXPECT_NE(outcome.errors.find("patina: "), std::string::npos) << outcome.errors;
     EXPECT_NE(outcome.errors.find("window"), std::string::npos) << outcome.errors;
+}
+
+/// A hilly sheet of 2 · side² triangles.
+void write_sheet(const fs::path& file, int side) {
+    std::ofstream obj(file);
+    for (int y = 0; y <= side; ++y)
+        for (int x = 0; x <= side; ++x) obj << "v " << x << ' ' << (x * y) % 7 << ' ' << y << '\n';
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const int a = y * (side + 1) + x + 1, b = a + side + 1;
+            obj << "f " << a << ' ' << b << ' ' << b + 1 << '\n'
+                << "f " << a << ' ' << b + 1 << ' ' << a + 1 << '\n';
+        }
+}
+
+// The loop goes round many times while something large comes in: nothing of it is done in one piece there.
+TEST(SlowEditor, goes_on_while_a_large_mesh_loads) {
+    const Folder home;
+    write_sheet(home / "sheet.obj", 700);
+    EXPECT_DRIVEN(
+        drive(home, "wait idle\nmark\ndrop " + (home / "sheet.obj").string() +
+                        "\nwait until triangles=980000\nexpect turns>8\nwait idle\nexpect clean\n"));
+}
+
+TEST(SlowEditor, goes_on_while_a_large_map_loads) {
+    const Folder home;
+    write_picture(home / "cliff_albedo.png", 120, 90, 60, 8192);
+    EXPECT_DRIVEN(drive(home, "wait idle\nmark\ndrop " + (home / "cliff_albedo.png").string() +
+                                  " at material.albedo.card\nwait until albedo.state=loading\nwait until "
+                                  "albedo.state=ok\nexpect turns>8\nwait idle\nexpect dirty\n"));
+}
+
+TEST(SlowEditor, goes_on_while_a_light_bakes) {
+    const Folder home;
+    const int never_twice = ::getpid();  // a light that was seen before would come from the cache
+    Image room = make_image(4096, 2048, 3, PixelType::F32);
+    for (int y = 0; y < room.height; ++y)
+        for (int x = 0; x < room.width; ++x)
+            for (int c = 0; c < 3; ++c)
+                set_texel(room, x, y, c, float((x / 64 + y / 64 + c) % 5) + 1e-3f * float(never_twice));
+    save_image(home / "room.exr", room);
+    EXPECT_DRIVEN(drive(home, "wait idle\nmark\ndrop " + (home / "room.exr").string() +
+                                  "\nwait until environment~room.exr\nwait until pending=no\nexpect "
+                                  "turns>8\nexpect lights_baked>0\nwait idle\nexpect clean\n"));
 }
 
 TEST(Drive, names_the_line_of_a_script_that_fails) {
