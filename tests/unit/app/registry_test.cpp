@@ -39,13 +39,16 @@ TEST(Registry, an_added_part_is_found_by_name_and_by_extension) {
                                    return mesh;
                                }});
     registry.mesh_importers.push_back(
-        {"void", "Nothing.", {"void"}, [](const std::filesystem::path&, const std::stop_token&) {
+        {"void", "Nothing.", {"void"}, [](const std::filesystem::path&, const std::stop_token& stop) {
              Mesh mesh;
-             mesh.name = "nothing";
+             mesh.name = stop.stop_requested() ? "stopped" : "nothing";
              return mesh;
          }});
     EXPECT_EQ(load_mesh_part(registry, "dot").name, "dot");
     EXPECT_EQ(load_mesh_part(registry, "some/file.VOID").name, "nothing");
+    std::stop_source source;
+    source.request_stop();
+    EXPECT_EQ(load_mesh_part(registry, "file.void", source.get_token()).name, "stopped");
 }
 
 TEST(Registry, unknown_names_say_what_there_is) {
