@@ -97,6 +97,12 @@ void add_overrides(CLI::App& app, SceneOptions& scene) {
         ->allow_extra_args(false);
 }
 
+void add_no_skip(CLI::App& app, bool& skip) {
+    app.add_flag_callback(
+        "--no-skip", [&skip] { skip = false; },
+        "Prepare all that any picture could need, not only what this one does (for measuring)");
+}
+
 void add_scene(CLI::App& app, SceneOptions& scene) {
     app.add_option("--mesh", scene.mesh, "sphere, quad, cube, torus, shaderball, or a mesh file")
         ->type_name("ID|FILE");
@@ -115,6 +121,7 @@ void add_scene(CLI::App& app, SceneOptions& scene) {
     add_overrides(app, scene);
     app.add_flag("--allow-missing-maps", scene.allow_missing_maps,
                  "Draw a checkerboard where a map cannot be read");
+    add_no_skip(app, scene.skip);
 }
 
 void add_edit(CLI::App& root, Args& args) {
@@ -124,6 +131,7 @@ void add_edit(CLI::App& root, Args& args) {
     app->add_option("--env", args.edit.environment, "A built-in environment or a picture file")
         ->type_name("ID|FILE");
     add_size(*app, "--window", args.edit.window_px, "Size of the window in pixels");
+    add_no_skip(*app, args.edit.skip);
     app->add_option("--drive", args.edit.drive_script, "Play a script of clicks and keys, then quit")
         ->type_name("FILE");
 }

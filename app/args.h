@@ -23,6 +23,7 @@ struct SceneOptions {
     glm::ivec2 size_px{512, 512};
     std::vector<std::pair<std::string, std::string>> overrides;  ///< --set key=value, in order
     bool allow_missing_maps = false;                             ///< draw the placeholder instead of failing
+    bool skip = true;  ///< false: prepare what any picture could need, for comparison
 };
 
 struct EditArgs {
@@ -31,6 +32,7 @@ struct EditArgs {
     std::string environment;
     std::string drive_script;
     glm::ivec2 window_px{0};  ///< 0: as last time
+    bool skip = true;         ///< as in SceneOptions
 };
 struct RenderArgs {
     std::vector<std::string> presets;  ///< one for render; "-" is the default material

@@ -20,7 +20,8 @@ int run_render(const RenderArgs& args, const Registry& registry) {
     const ImageExporter& exporter = image_exporter(registry, path_from_utf8(args.output));
     Studio studio(registry, args.scene);
     Scene scene = studio.loader.scene(args.presets.front(), args.scene);
-    scene.environment = studio.loader.environment(args.scene.environments.front());
+    scene.environment =
+        studio.loader.environment(args.scene.environments.front(), studio.loader.needed_light(scene));
     const TargetHandle target = studio.renderer.make_target(args.scene.size_px);
     const Image image = studio.picture(scene, *target, wants_radiance(args.output));
     exporter.save(path_from_utf8(args.output), image,
@@ -59,11 +60,14 @@ int run_compare(const RenderArgs& args, const Registry& registry) {
     for (std::size_t x = 0; x < args.scene.environments.size(); ++x)
         sheet.set_column_title(int(x), environment_title(registry, args.scene.environments[x]));
     const TargetHandle target = studio.renderer.make_target(args.scene.size_px);
+    NeededLight needed;  // of the whole sheet, so that each light is baked once
+    for (const std::string& preset : args.presets)
+        needed = combined(needed, studio.loader.needed_light(preset, args.scene));
     for (std::size_t y = 0; y < args.presets.size(); ++y) {
         Scene scene = studio.loader.scene(args.presets[y], args.scene);
         sheet.set_row_title(int(y), scene.material.name);
         for (std::size_t x = 0; x < args.scene.environments.size(); ++x) {
-            scene.environment = studio.loader.environment(args.scene.environments[x]);
+            scene.environment = studio.loader.environment(args.scene.environments[x], needed);
             sheet.set_cell(int(x), int(y), studio.picture(scene, *target, radiance));
         }
     }

@@ -122,7 +122,7 @@ Loop::Loop(const EditArgs& args, const Registry& registry)
       remembered_(load_settings(state_folder())),
       window_(window_options(args, remembered_.settings)),
       jobs_(worker_count(), Window::wake),
-      editor_(registry, renderer_, jobs_, with_arguments(remembered_.settings, args)) {
+      editor_(registry, renderer_, jobs_, with_arguments(remembered_.settings, args), args.skip) {
     if (!args.drive_script.empty())
         drive_.emplace(load_drive(path_from_utf8(args.drive_script)), args.drive_script);
     editor_.status.renderer = window_.description();
@@ -362,7 +362,7 @@ int Loop::run() {
 
 }  // namespace
 
-Editor::Editor(const Registry& parts, Renderer& gpu, Jobs& workers, Settings remembered)
+Editor::Editor(const Registry& parts, Renderer& gpu, Jobs& workers, Settings remembered, bool skip)
     : registry(parts),
       renderer(gpu),
       jobs(workers),
@@ -371,6 +371,7 @@ Editor::Editor(const Registry& parts, Renderer& gpu, Jobs& workers, Settings rem
       history(document),
       reconciler(gpu, parts, workers,
                  {.bakes = bake_cache(),
+                  .skip = skip,
                   .log = [this](ui::Severity severity,
                                 const std::string& text) { log_line(*this, severity, text); }}),
       thumbnails(gpu, parts, workers, {.folder = cache_folder() / "thumbnails", .bakes = bake_cache()}),

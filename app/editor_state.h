@@ -29,7 +29,8 @@ struct PresetEntry {
 };
 
 struct Editor {
-    Editor(const Registry& registry, Renderer& renderer, Jobs& jobs, Settings settings);
+    Editor(const Registry& registry, Renderer& renderer, Jobs& jobs, Settings settings,
+           bool skip = true);  ///< skip: as in SceneOptions
 
     const Registry& registry;
     Renderer& renderer;

@@ -1,5 +1,6 @@
 #include "app/reconcile.h"
 
+#include "app/reconcile_light.h"
 #include "app/reconcile_load.h"
 #include "app/reconcile_supply.h"
 #include "materials/params.h"
@@ -23,6 +24,7 @@ struct HeldMap {
     MapHandle handle;
     MapHandle thumbnail;
     ui::MapStatus status;  ///< of a loaded map; without a texture id
+    ChannelRanges ranges;
 };
 struct HeldMesh {
     MeshHandle handle;
@@ -31,12 +33,9 @@ struct HeldMesh {
 };
 struct HeldEnvironment {
     EnvironmentHandle handle;
+    std::shared_ptr<const HeldLight> light;
     ui::EnvironmentInfo info;
 };
-
-/// A key is the file or id, then the version after a mark that no path ends in.
-constexpr char kVersionMark = '\n';
-std::string id_of(const std::string& key) { return key.substr(0, key.find(kVersionMark)); }
 
 std::uint64_t bytes_of(const Image& image) { return image.bytes.size(); }
 std::uint64_t bytes_of(const MapLevels& map) {
@@ -60,30 +59,6 @@ std::string mesh_title(const Registry& registry, const std::string& id) {
     return short_name(id);
 }
 
-/// Everything of one slot, value included.
-void copy_slot(const Material& from, Material& to, MapSlot slot) {
-    switch (slot) {
-        case MapSlot::Albedo:
-            to.albedo = from.albedo;
-            break;
-        case MapSlot::Roughness:
-            to.roughness = from.roughness;
-            break;
-        case MapSlot::Metallic:
-            to.metallic = from.metallic;
-            break;
-        case MapSlot::Ao:
-            to.ao = from.ao;
-            break;
-        case MapSlot::Normal:
-            to.normal = from.normal;
-            break;
-        case MapSlot::Emission:
-            to.emission = from.emission;
-            break;
-    }
-}
-
 }  // namespace
 
 struct Reconciler::State {
@@ -101,6 +76,7 @@ struct Reconciler::State {
     std::map<std::string, int> versions;        ///< of files: how often they were read again
     std::vector<std::pair<std::string, FileStamp>> files_read;
     ReconcileCounts counts;
+    std::map<std::string, LightOrder> light_orders;  ///< of what is wanted, by key
 
     // The picture: what was complete last.
     Material material;
@@ -116,10 +92,15 @@ struct Reconciler::State {
         return id + kVersionMark + std::to_string(found == versions.end() ? 0 : found->second);
     }
     void want(const Document& document);
+    std::optional<NeededLight> needed_by(const Document& document) const;
+    std::string light_key(const std::string& environment, const std::optional<NeededLight>& needed);
     void start_missing(const Document& document);
     Jobs::Id start_map(const std::string& key, const MapRequest& request);
     Jobs::Id start_mesh(const std::string& key);
     Jobs::Id start_environment(const std::string& key);
+    void count_light(const LightOrder& order, const ReadyLight& ready);
+    void take_light(const std::string& key, const ReadyLight& light, EnvironmentHandle handle,
+                    std::uint64_t bytes);
     template <class T, class Ready, class Input, class Finished>
     void expect(Supply<T>& supply, const std::string& key, std::shared_ptr<Ready> ready,
                 std::shared_ptr<const Input> input, Finished finished);
@@ -129,6 +110,7 @@ struct Reconciler::State {
                                                         const std::shared_ptr<FileStamp>& stamp);
     void note(const std::string& id, const std::vector<std::string>& notes) const;
     bool slot_ready(const Document& document, int slot) const;
+    bool light_ready() const;
     MapHandle handle_for(const Document& document, int slot) const;
     void present(const Document& document, std::uint64_t opened_now);
     void report(const Document& document);
@@ -158,7 +140,36 @@ void Reconciler::State::want(const Document& document) {
     }
     const bool tangents = !document.material.normal.map.empty();
     meshes.want(0, versioned(document.mesh) + (tangents ? " t" : ""));
-    environments.want(0, versioned(document.environment));
+    light_orders.clear();
+    environments.want(0, light_key(document.environment, needed_by(document)));
+}
+
+/// Not known before the maps are there that tell it.
+std::optional<NeededLight> Reconciler::State::needed_by(const Document& document) const {
+    if (!options.skip) return all_light();
+    MapRanges ranges;
+    for (const MapSlot slot : {MapSlot::Roughness, MapSlot::Metallic, MapSlot::Normal}) {
+        const auto& [keys, value, error] = maps.slot(std::size_t(slot));
+        if (keys.wanted.empty()) continue;
+        if (!keys.ready()) return std::nullopt;
+        ranges[std::size_t(slot)] = keys.wanted == keys.shown && value ? value->ranges : ChannelRanges{};
+    }
+    return needed_light(document.material, ranges, document.view);
+}
+
+std::string Reconciler::State::light_key(const std::string& environment,
+                                         const std::optional<NeededLight>& needed) {
+    const std::string base = versioned(environment);
+    const std::string& loading = environments.slot(0).keys.loading;
+    if (base_of(loading) == base) return loading;  // what a slider passed meanwhile is found when it is there
+    std::vector<LightAtHand> at_hand;
+    environments.visit([&](const std::string& key, const HeldEnvironment& held) {
+        if (base_of(key) == base) at_hand.push_back({key, held.light, held.handle});
+    });
+    LightWish wish = wish_for_light({.id = environment, .needed = needed, .first_light = options.skip}, base,
+                                    at_hand, options.bake_settings);
+    if (wish.order) light_orders[wish.key] = std::move(*wish.order);
+    return wish.key;
 }
 
 void Reconciler::State::note(const std::string& id, const std::vector<std::string>& notes) const {
@@ -231,6 +242,7 @@ Jobs::Id Reconciler::State::start_map(const std::string& key, const MapRequest& 
                                       .channels = map.channels,
                                       .bits = map.bits,
                                       .file_bytes = map.file_bytes};
+                       held.ranges = map.ranges;
                        maps.finished(key, std::move(held), bytes);
                    });
         };
@@ -275,31 +287,55 @@ Jobs::Id Reconciler::State::start_mesh(const std::string& key) {
 }
 
 Jobs::Id Reconciler::State::start_environment(const std::string& key) {
-    const std::string id = id_of(key);
+    const LightOrder order = light_orders.at(key);
     const auto stamp = std::make_shared<FileStamp>();
-    const auto work = [this, key, id, stamp](JobContext& job) -> Jobs::Done {
-        *stamp = stamp_of(utf8_to_path(id));
+    const auto work = [this, key, order, stamp](JobContext& job) -> Jobs::Done {
+        *stamp = stamp_of(utf8_to_path(order.id));
         const BakeControl control{jobs.parallel_for(), job.progress, job.stop};
-        auto baked = load_and_bake(registry, id, options.bake_settings, options.bakes, control);
-        if (!baked) return {};
-        const auto ready = std::make_shared<ReadyEnvironment>(std::move(*baked));
-        return [this, key, ready, stamp] {
+        auto lit = get_light(registry, order, options.bake_settings, options.bakes, control);
+        if (!lit) return {};
+        const auto ready = std::make_shared<ReadyLight>(std::move(*lit));
+        return [this, key, order, ready, stamp] {
             files_read.emplace_back(id_of(key), *stamp);
-            ++(ready->from_disk ? counts.environments_from_disk : counts.environments_baked);
-            const std::uint64_t bytes = bytes_of(*ready->light);
+            count_light(order, *ready);
+            const std::uint64_t bytes = bytes_of(*ready->light) + bytes_of(*ready->held);
             expect(environments, key, ready, std::exchange(ready->light, nullptr),
-                   [this, key, bytes](const ReadyEnvironment& light, EnvironmentHandle handle) {
-                       HeldEnvironment held{.handle = std::move(handle)};
-                       held.info = {.title = light.title,
-                                    .width = light.width,
-                                    .height = light.height,
-                                    .max_radiance = light.max_radiance,
-                                    .notes = light.notes};
-                       environments.finished(key, std::move(held), bytes);
+                   [this, key, bytes](const ReadyLight& light, EnvironmentHandle handle) {
+                       take_light(key, light, std::move(handle), bytes);
                    });
         };
     };
-    return jobs.start("Baking " + short_name(id), work, when_failed(environments, key, stamp));
+    return jobs.start((order.held ? "Adding light of " : "Baking ") + short_name(order.id), work,
+                      when_failed(environments, key, stamp));
+}
+
+void Reconciler::State::count_light(const LightOrder& order, const ReadyLight& ready) {
+    const bool is_new = !order.held || order.held->exact.levels.empty();
+    const bool is_baked = ready.levels_baked > 0 || ready.irradiance_baked;
+    if (is_new) counts.environments_from_disk += int(ready.from_disk);
+    if (is_new) counts.environments_baked += int(is_baked);
+    counts.first_lights += int(ready.is_first_light);
+    counts.levels_baked += ready.levels_baked;
+    counts.irradiances_baked += int(ready.irradiance_baked);
+}
+
+void Reconciler::State::take_light(const std::string& key, const ReadyLight& light, EnvironmentHandle handle,
+                                   std::uint64_t bytes) {
+    HeldEnvironment held{.handle = std::move(handle), .light = light.held};
+    held.info = {.title = light.held->title,
+                 .width = light.held->width,
+                 .height = light.held->height,
+                 .max_radiance = light.held->max_radiance,
+                 .notes = light.notes};
+    std::vector<std::string> less;  // of the same light
+    const std::string base = base_of(key);
+    environments.visit([&](const std::string& each, const HeldEnvironment& other) {
+        if (each == key || base_of(each) != base) return;
+        less.push_back(each);
+        if (held.info.notes.empty()) held.info.notes = other.info.notes;
+    });
+    environments.finished(key, std::move(held), bytes);
+    for (const std::string& each : less) environments.forget(each);
 }
 
 void Reconciler::State::start_missing(const Document& document) {
@@ -324,6 +360,12 @@ bool Reconciler::State::slot_ready(const Document& document, int slot) const {
     return !needs_tangents || meshes.slot(0).keys.ready() || wants_tangents(meshes.slot(0).keys.shown);
 }
 
+/// Unless levels are being added to what is shown; other light takes longer, and the picture does not wait.
+bool Reconciler::State::light_ready() const {
+    const SlotKeys& keys = environments.slot(0).keys;
+    return keys.ready() || base_of(keys.wanted) != base_of(keys.shown);
+}
+
 /// The wanted map; the last good one of the same file while that is broken; else the placeholder.
 MapHandle Reconciler::State::handle_for(const Document& document, int slot) const {
     const auto& [keys, value, error] = maps.slot(slot);
@@ -336,7 +378,7 @@ MapHandle Reconciler::State::handle_for(const Document& document, int slot) cons
 void Reconciler::State::present(const Document& document, std::uint64_t opened_now) {
     std::array<bool, kMapSlots> ready;
     for (int i = 0; i < kMapSlots; ++i) ready[i] = slot_ready(document, i);
-    const bool all = std::all_of(ready.begin(), ready.end(), [](bool each) { return each; });
+    const bool all = light_ready() && std::all_of(ready.begin(), ready.end(), [](bool each) { return each; });
     if (!all && presented && opened_now != opened) return;  // another document: all of it or nothing
     Material next = document.material;
     for (int i = 0; i < kMapSlots; ++i) {

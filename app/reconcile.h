@@ -24,7 +24,8 @@ namespace patina {
 
 struct ReconcileOptions {
     BakeCache bakes;
-    BakeSettings bake_settings;
+    BakeSettings bake_settings;  ///< but for the levels, which the pictures choose
+    bool skip = true;            ///< false: prepares what any picture could need, for comparison
     std::uint64_t map_bytes = std::uint64_t{1} << 30;  ///< kept on the GPU for switching back
     std::uint64_t mesh_bytes = std::uint64_t{512} << 20;
     std::uint64_t environment_bytes = std::uint64_t{256} << 20;
@@ -35,6 +36,7 @@ struct ReconcileOptions {
 /// How often what was wanted had to be made or was still there: a test's view of the memory.
 struct ReconcileCounts {
     int environments_baked = 0, environments_from_disk = 0, environments_from_memory = 0;
+    int first_lights = 0, levels_baked = 0, irradiances_baked = 0;
     int maps_loaded = 0, maps_from_memory = 0;
     int meshes_loaded = 0, meshes_from_memory = 0;
 };

@@ -16,7 +16,6 @@ namespace {
 
 constexpr int kSamplesPerSide =
     4;  ///< of a small picture's pixel: enough against glitter, cheap for 8k sources
-constexpr float kDecodeShare = 0.1f, kBakeShare = 0.85f;  ///< of the progress
 
 int bits_of(PixelType type) { return int(bytes_per_channel(type)) * 8; }
 
@@ -30,6 +29,29 @@ MapRequest map_request(const Material& material, MapSlot slot) {
     return {.file = *row.map,
             .kind = map_kind(slot),
             .color_space = row.color_space ? *row.color_space : ColorSpace::Linear};
+}
+
+void copy_slot(const Material& from, Material& to, MapSlot slot) {
+    switch (slot) {
+        case MapSlot::Albedo:
+            to.albedo = from.albedo;
+            break;
+        case MapSlot::Roughness:
+            to.roughness = from.roughness;
+            break;
+        case MapSlot::Metallic:
+            to.metallic = from.metallic;
+            break;
+        case MapSlot::Ao:
+            to.ao = from.ao;
+            break;
+        case MapSlot::Normal:
+            to.normal = from.normal;
+            break;
+        case MapSlot::Emission:
+            to.emission = from.emission;
+            break;
+    }
 }
 
 ReadyMap load_map(const Registry& registry, const MapRequest& request, int max_side) {
@@ -57,34 +79,8 @@ ReadyMap load_map(const Registry& registry, const MapRequest& request, int max_s
         while (levels->levels.size() > 1 &&
                std::max(levels->levels[0].width, levels->levels[0].height) > max_side)
             levels->levels.erase(levels->levels.begin());
+    ready.ranges = channel_ranges(*levels);
     ready.levels = std::move(levels);
-    return ready;
-}
-
-std::optional<ReadyEnvironment> load_and_bake(const Registry& registry, const std::string& id,
-                                              const BakeSettings& settings, const BakeCache& cache,
-                                              const BakeControl& control) {
-    LoadedLight light = load_light(registry, id);
-    const Environment& environment = light.environment;
-    if (control.stop.stop_requested()) return std::nullopt;
-    control.progress(kDecodeShare);
-    BakeControl rest = control;
-    rest.progress = [&](float fraction) { control.progress(kDecodeShare + kBakeShare * fraction); };
-    std::optional<CachedBake> bake = light.baked
-                                         ? CachedBake{.baked = std::move(*light.baked), .from_disk = true}
-                                         : cached_bake(environment, settings, rest, cache);
-    if (!bake || control.stop.stop_requested()) return std::nullopt;
-    ReadyEnvironment ready{.title = environment.title,
-                           .width = environment.width,
-                           .height = environment.height,
-                           .light = std::make_shared<PreparedLight>(PreparedLight{
-                               make_panorama_levels(environment), make_light_levels(bake->baked)}),
-                           .from_disk = bake->from_disk,
-                           .notes = environment.notes};
-    ready.notes.insert(ready.notes.end(), bake->baked.notes.begin(), bake->baked.notes.end());
-    if (!bake->note.empty()) ready.notes.push_back(bake->note);
-    for (const glm::vec3& radiance : environment.radiance)
-        ready.max_radiance = std::max({ready.max_radiance, radiance.x, radiance.y, radiance.z});
     return ready;
 }
 

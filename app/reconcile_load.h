@@ -4,13 +4,12 @@
 
 #include "app/jobs.h"
 #include "app/registry.h"
-#include "renderer/ibl/cache.h"
+#include "renderer/map_range.h"
 #include "renderer/renderer.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,8 +23,12 @@ struct MapRequest {
 /// How a slot's map is read; the kind of its mipmaps follows from the slot.
 MapRequest map_request(const Material& material, MapSlot slot);
 
+/// Everything of one slot, value included.
+void copy_slot(const Material& from, Material& to, MapSlot slot);
+
 struct ReadyMap {
     std::shared_ptr<const MapLevels> levels;
+    ChannelRanges ranges;
     Image thumbnail;  ///< 3 channels of 8 bits, at most kThumbnailPx a side
     int width = 0, height = 0, channels = 0, bits = 0;
     std::uint64_t file_bytes = 0;
@@ -35,19 +38,6 @@ inline constexpr int kThumbnailPx = 128;
 
 /// Throws std::runtime_error with one sentence. max_side > 0: the finest level is no larger (for thumbnails).
 ReadyMap load_map(const Registry& registry, const MapRequest& request, int max_side = 0);
-
-struct ReadyEnvironment {
-    std::string title;
-    int width = 0, height = 0;  ///< of the source
-    std::shared_ptr<const PreparedLight> light;
-    bool from_disk = false;
-    float max_radiance = 0.0f;
-    std::vector<std::string> notes;
-};
-/// nullopt only when stopped.
-std::optional<ReadyEnvironment> load_and_bake(const Registry& registry, const std::string& id,
-                                              const BakeSettings& settings, const BakeCache& cache,
-                                              const BakeControl& control);
 
 /// Any picture as a small one to look at: 3 channels of 8 bits. linear: its values are light and get encoded.
 Image small_picture(const Image& image, int max_side, bool linear);

@@ -10,6 +10,16 @@
 
 namespace patina {
 
+/// A key is the file or id, the version after a mark that no path ends in, and after another mark what else
+/// tells the one from the other.
+inline constexpr char kVersionMark = '\n';
+inline std::string id_of(const std::string& key) { return key.substr(0, key.find(kVersionMark)); }
+/// File or id and version.
+inline std::string base_of(const std::string& key) {
+    const std::size_t mark = key.find(kVersionMark);
+    return mark == std::string::npos ? key : key.substr(0, key.find(kVersionMark, mark + 1));
+}
+
 /// One thing the picture needs. A key names it together with its version; empty: nothing.
 struct SlotKeys {
     std::string wanted;
@@ -65,6 +75,10 @@ public:
                 entries_.erase(entry);
                 return;
             }
+    }
+    template <class Visit>
+    void visit(Visit visit) const {
+        for (const Entry& entry : entries_) visit(entry.key, entry.value);
     }
     std::uint64_t bytes() const { return bytes_; }
     std::size_t size() const { return entries_.size(); }

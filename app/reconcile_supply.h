@@ -29,6 +29,15 @@ public:
     const Slot& slot(std::size_t i) const { return slots_[i]; }
     void want(std::size_t i, const std::string& key) { slots_[i].keys.wanted = key; }
     std::optional<T> in_memory(const std::string& key) { return memory_.get(key); }
+    /// Whatever a slot shows or the memory holds; visit(key, value).
+    template <class Visit>
+    void visit(Visit visit) const {
+        for (const Slot& slot : slots_)
+            if (slot.value) visit(slot.keys.shown, *slot.value);
+        memory_.visit(visit);
+    }
+    /// Not to be taken from memory again: something better replaced it.
+    void forget(const std::string& key) { memory_.forget(key); }
 
     /// start(key) begins a load and gives its id; stop(id) ends one. Returns how many wants were met from
     /// memory.

@@ -33,27 +33,46 @@ LoadedImage load_map(const Registry& registry, const MapSource& source) {
     return import_image(registry, source.file);
 }
 
+namespace {
+
+struct FoundMaterial {
+    Material material;
+    fs::path file;  ///< empty for the default material
+};
+FoundMaterial material_of(const std::string& preset, const SceneOptions& options,
+                          const std::function<void(const std::string&)>& note) {
+    FoundMaterial found;
+    if (preset != "-") {
+        found.file = find_preset(preset);
+        LoadedMaterial loaded = load_material(found.file);
+        for (const std::string& each : loaded.notes) note(preset + ": " + each);
+        found.material = std::move(loaded.material);
+    }
+    for (const auto& [key, value] : options.overrides) set_parameter(found.material, key, value);
+    return found;
+}
+
+}  // namespace
+
 SceneLoader::SceneLoader(Renderer& renderer, const Registry& registry, Options options)
     : renderer_(renderer), registry_(registry), options_(std::move(options)) {}
 
-EnvironmentHandle SceneLoader::environment(const std::string& id) {
-    EnvironmentHandle& handle = environments_[id];
-    if (handle) return handle;
+EnvironmentHandle SceneLoader::environment(const std::string& id, const NeededLight& needed) {
+    Light& light = lights_[id];
+    const NeededLight wanted = options_.skip ? needed : all_light();
+    if (light.held && serves(*light.held, wanted)) return light.handle;
     options_.progress("loading " + id, 0.0f);
-    const LoadedLight light = load_light(registry_, id);
-    const Environment& environment = light.environment;
-    for (const std::string& note : environment.notes) options_.note(id + ": " + note);
-    if (light.baked) return handle = renderer_.upload_environment(environment, *light.baked);
     const BakeControl control{
         .parallel_for = options_.parallel_for,
         .progress = [&](float fraction) { options_.progress("baking " + id, fraction); },
         .stop = {}};
-    const std::optional<CachedBake> result =
-        cached_bake(environment, BakeSettings{}, control, options_.cache);
-    if (!result) throw std::runtime_error(id + ": the bake was stopped");
-    if (!result->note.empty()) options_.note(result->note);
-    for (const std::string& note : result->baked.notes) options_.note(id + ": " + note);
-    return handle = renderer_.upload_environment(environment, result->baked);
+    const LightOrder order{.id = id, .needed = wanted, .held = light.held, .drawn = light.handle};
+    const std::optional<ReadyLight> ready =
+        get_light(registry_, order, BakeSettings{}, options_.cache, control);
+    if (!ready) throw std::runtime_error(id + ": the bake was stopped");
+    for (const std::string& note : ready->notes) options_.note(id + ": " + note);
+    light.held = ready->held;
+    return light.handle = Renderer::begin_upload(ready->light).finish();
 }
 
 MeshHandle SceneLoader::mesh(const std::string& id, bool with_tangents) {
@@ -66,7 +85,7 @@ MeshHandle SceneLoader::mesh(const std::string& id, bool with_tangents) {
 }
 
 MapHandle SceneLoader::map(const MapSource& source, const std::string& preset) {
-    MapHandle& handle = maps_[{utf8_from_path(source.file), source.kind, source.color_space}];
+    auto& [handle, ranges] = maps_[{utf8_from_path(source.file), source.kind, source.color_space}];
     if (handle) return handle;
     options_.progress("loading " + utf8_from_path(source.file.filename()), 0.0f);
     LoadedImage loaded;
@@ -80,25 +99,37 @@ MapHandle SceneLoader::map(const MapSource& source, const std::string& preset) {
         loaded.image = make_placeholder_map();
     }
     for (const std::string& note : loaded.notes) options_.note(note);
-    return handle = renderer_.upload_map(make_map_levels(loaded.image, source.kind, source.color_space));
+    const MapLevels levels = make_map_levels(loaded.image, source.kind, source.color_space);
+    ranges = channel_ranges(levels);
+    return handle = renderer_.upload_map(levels);
 }
 
 Scene SceneLoader::scene(const std::string& preset, const SceneOptions& options) {
     Scene scene;
-    fs::path file;
-    if (preset != "-") {
-        file = find_preset(preset);
-        LoadedMaterial loaded = load_material(file);
-        for (const std::string& note : loaded.notes) options_.note(preset + ": " + note);
-        scene.material = std::move(loaded.material);
-    }
-    for (const auto& [key, value] : options.overrides) set_parameter(scene.material, key, value);
+    const auto [material, file] = material_of(preset, options, options_.note);
+    scene.material = material;
     for (const MapSource& source : map_sources(scene.material, file))
         scene.maps[std::size_t(source.slot)] = map(source, preset);
     scene.mesh = mesh(options.mesh, !scene.material.normal.map.empty());
     scene.camera = options.camera;
     scene.view = options.view;
     return scene;
+}
+
+NeededLight SceneLoader::needed_light(const Scene& scene) const {
+    MapRanges ranges;
+    for (std::size_t slot = 0; slot < scene.maps.size(); ++slot)
+        for (const auto& [source, map] : maps_)
+            if (scene.maps[slot] && map.handle == scene.maps[slot]) ranges[slot] = map.ranges;
+    return patina::needed_light(scene.material, ranges, scene.view);
+}
+
+NeededLight SceneLoader::needed_light(const std::string& preset, const SceneOptions& options) const {
+    const auto [material, file] = material_of(preset, options, [](const std::string&) {});
+    MapRanges ranges;
+    for (const MapSource& source : map_sources(material, file))
+        ranges[std::size_t(source.slot)] = ChannelRanges{};
+    return patina::needed_light(material, ranges, options.view);
 }
 
 }  // namespace patina

@@ -3,8 +3,9 @@
 #pragma once
 
 #include "app/args.h"
+#include "app/reconcile_light.h"
 #include "app/registry.h"
-#include "renderer/ibl/cache.h"
+#include "renderer/needed_light.h"
 #include "renderer/renderer.h"
 
 #include <filesystem>
@@ -35,6 +36,7 @@ public:
         ParallelFor parallel_for = serial_for;
         BakeCache cache;
         bool allow_missing_maps = false;
+        bool skip = true;  ///< false: prepares what any picture could need, for comparison
         std::function<void(const std::string&)> note = [](const std::string&) {};  ///< one sentence each
         std::function<void(const std::string& what, float fraction)> progress = [](const std::string&,
                                                                                    float) {};
@@ -42,20 +44,32 @@ public:
     SceneLoader(Renderer& renderer, const Registry& registry, Options options);
 
     /// Throw std::runtime_error with one sentence.
-    EnvironmentHandle environment(const std::string& id);
+    EnvironmentHandle environment(const std::string& id, const NeededLight& needed = all_light());
     MeshHandle mesh(const std::string& id, bool with_tangents);
     /// Material, its maps and the mesh it is put on; the rest of the scene is left to the caller.
     Scene scene(const std::string& preset, const SceneOptions& options);
+    /// What a loaded scene looks up.
+    NeededLight needed_light(const Scene& scene) const;
+    /// The same before its maps are loaded: whatever they may hold.
+    NeededLight needed_light(const std::string& preset, const SceneOptions& options) const;
 
 private:
+    struct Light {
+        std::shared_ptr<const HeldLight> held;
+        EnvironmentHandle handle;
+    };
+    struct Map {
+        MapHandle handle;
+        ChannelRanges ranges;
+    };
     MapHandle map(const MapSource& source, const std::string& preset);
 
     Renderer& renderer_;
     const Registry& registry_;
     Options options_;
-    std::map<std::string, EnvironmentHandle> environments_;
+    std::map<std::string, Light> lights_;
     std::map<std::pair<std::string, bool>, MeshHandle> meshes_;
-    std::map<std::tuple<std::string, MapKind, ColorSpace>, MapHandle> maps_;
+    std::map<std::tuple<std::string, MapKind, ColorSpace>, Map> maps_;
 };
 
 }  // namespace patina

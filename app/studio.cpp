@@ -10,6 +10,7 @@ Studio::Studio(const Registry& registry, const SceneOptions& options)
           {.parallel_for = jobs.parallel_for(),
            .cache = {.folder = cache_folder() / "ibl"},
            .allow_missing_maps = options.allow_missing_maps,
+           .skip = options.skip,
            .note =
                [this](const std::string& sentence) {
                    progress.clear();

@@ -1,6 +1,7 @@
 #include "app/thumbnails.h"
 
 #include "app/document.h"
+#include "app/reconcile_light.h"
 #include "app/reconcile_load.h"
 #include "app/watch.h"
 #include "materials/material_io.h"
@@ -193,12 +194,13 @@ void Thumbnails::State::start_light() {
     job = jobs.start(
         "",
         [this](JobContext& context) -> Jobs::Done {
-            auto baked = load_and_bake(registry, kLight, options.bake_settings, options.bakes,
-                                       {jobs.parallel_for(), context.progress, context.stop});
-            if (!baked) return {};
+            const LightOrder order{.id = kLight, .needed = all_light()};
+            auto lit = get_light(registry, order, options.bake_settings, options.bakes,
+                                 {jobs.parallel_for(), context.progress, context.stop});
+            if (!lit) return {};
             Mesh shape = load_mesh_part(registry, kShape);
             make_tangents(shape);
-            return [this, shape = std::make_shared<PreparedMesh>(prepare_mesh(shape)), ready = baked->light] {
+            return [this, shape = std::make_shared<PreparedMesh>(prepare_mesh(shape)), ready = lit->light] {
                 light = Renderer::begin_upload(ready).finish();
                 sphere = Renderer::begin_upload(shape).finish();
             };

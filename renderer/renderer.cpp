@@ -64,13 +64,14 @@ LightLayout layout_of(const GpuEnvironment& environment) {
             environment.texels_per_radian,
             environment.layers,
             environment.roughness,
+            environment.sharpest,
             environment.lights};
 }
 
 Features features_for(const Scene& scene, const GpuEnvironment& environment) {
     std::bitset<kMapSlots> bound;
     for (std::size_t i = 0; i < scene.maps.size(); ++i) bound[i] = scene.maps[i] != nullptr;
-    return features_of(scene.material, bound, scene.view, environment.roughness.front());
+    return features_of(scene.material, bound, scene.view, environment.sharpest);
 }
 
 template <class Block>
@@ -146,7 +147,7 @@ const gl::Program& Renderer::State::display(int samples, Tonemap tonemap) {
 }
 
 void Renderer::State::bind_light(const GpuEnvironment& environment) const {
-    bind_texture(gl::kPanoramaUnit, GL_TEXTURE_2D, environment.panorama);
+    bind_texture(gl::kPanoramaUnit, GL_TEXTURE_2D, *environment.panorama);
     bind_texture(gl::kLevelsUnit, GL_TEXTURE_CUBE_MAP_ARRAY, environment.levels);
     bind_texture(gl::kIrradianceUnit, GL_TEXTURE_CUBE_MAP, environment.irradiance);
     bind_texture(gl::kBrdfUnit, GL_TEXTURE_2D, brdf);

@@ -47,7 +47,7 @@ void set_levels(blocks::FrameBlock& block, const LightLayout& light) {
         block.level_slope[i / 4][i % 4] = 1.0f / length;
         block.level_offset[i / 4][i % 4] = -position(i) / length;
     }
-    const float sharpest = std::max(light.roughness.front(), 1e-6f);  // the shader divides by its square
+    const float sharpest = std::max(light.sharpest, 1e-6f);  // the shader divides by its square
     block.level_layout = vec4(float(segments), float(light.layers), sharpest, sharpest * sharpest);
 }
 

@@ -25,6 +25,7 @@ struct LightLayout {
     float texels_per_radian = 1.0f;
     int layers = 1;
     std::vector<float> roughness;  ///< of the levels, ascending, at most blocks::kMaxLevels
+    float sharpest = 1.0f;         ///< lobes sharper than this are made up from the panorama
     std::vector<ExtractedLight> lights;
 };
 

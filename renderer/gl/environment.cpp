@@ -22,8 +22,8 @@ void set_cube_filter(GLenum target, GLenum minify, int mips) {
 }
 
 void make_panorama(const PanoramaLevels& panorama, GpuEnvironment& result) {
-    result.panorama = Texture::make();
-    glBindTexture(GL_TEXTURE_2D, result.panorama.name());
+    result.panorama = std::make_shared<Texture>(Texture::make());
+    glBindTexture(GL_TEXTURE_2D, result.panorama->name());
     for (std::size_t i = 0; i < panorama.levels.size(); ++i)
         glTexImage2D(GL_TEXTURE_2D, GLint(i), GL_RGBA16F, panorama.levels[i].width, panorama.levels[i].height,
                      0, GL_RGBA, GL_HALF_FLOAT, nullptr);
@@ -34,6 +34,12 @@ void make_panorama(const PanoramaLevels& panorama, GpuEnvironment& result) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, GLint(panorama.levels.size()) - 1);
     result.panorama_scale = std::ldexp(1.0f, panorama.exponent);
     result.texels_per_radian = float(panorama.levels[0].height / M_PI);
+}
+
+void share_panorama(const GpuEnvironment& other, GpuEnvironment& result) {
+    result.panorama = other.panorama;
+    result.panorama_scale = other.panorama_scale;
+    result.texels_per_radian = other.texels_per_radian;
 }
 
 void make_levels(const LightLevels& light, GpuEnvironment& result) {
@@ -50,6 +56,7 @@ void make_levels(const LightLevels& light, GpuEnvironment& result) {
     result.levels_scale = std::ldexp(1.0f, light.levels_exponent);
     result.layers = light.layers;
     result.roughness = light.roughness;
+    result.sharpest = light.sharpest;
 }
 
 void make_irradiance(const LightLevels& light, GpuEnvironment& result) {
@@ -67,10 +74,13 @@ void make_irradiance(const LightLevels& light, GpuEnvironment& result) {
 }  // namespace
 
 EnvironmentWriter::EnvironmentWriter(const PreparedLight& light) {
-    if (light.panorama.levels.empty() || light.levels.levels.empty())
+    if ((light.panorama.levels.empty() && !light.panorama_of) || light.levels.levels.empty())
         throw std::runtime_error("The light has no levels to draw with: bake it again.");
     const KeepTextureBindings keep;
-    make_panorama(light.panorama, environment_);
+    if (light.panorama_of)
+        share_panorama(*light.panorama_of, environment_);
+    else
+        make_panorama(light.panorama, environment_);
     make_levels(light.levels, environment_);
     make_irradiance(light.levels, environment_);
     environment_.lights = light.levels.lights;
@@ -93,7 +103,7 @@ std::size_t EnvironmentWriter::write_rows(const PanoramaLevels& panorama, std::s
     const std::size_t row_bytes = std::size_t(level.width) * kHalfTexel;
     const int rows =
         int(std::clamp<std::size_t>(byte_budget / row_bytes, 1, std::size_t(level.height - row_)));
-    glBindTexture(GL_TEXTURE_2D, environment_.panorama.name());
+    glBindTexture(GL_TEXTURE_2D, environment_.panorama->name());
     glTexSubImage2D(GL_TEXTURE_2D, GLint(level_), 0, row_, level.width, rows, GL_RGBA, GL_HALF_FLOAT,
                     level.rgba.data() + std::size_t(row_) * level.width * 4);
     row_ += rows;
@@ -110,7 +120,7 @@ bool EnvironmentWriter::step(const PreparedLight& light, std::size_t byte_budget
     while (spent == 0 || spent < byte_budget) {
         if (next_cube_ < light.levels.levels.size())
             spent += write_cube(light.levels);
-        else if (level_ < light.panorama.levels.size())
+        else if (!light.panorama_of && level_ < light.panorama.levels.size())
             spent += write_rows(light.panorama, byte_budget > spent ? byte_budget - spent : 0);
         else
             return true;

@@ -5,14 +5,15 @@
 #include "renderer/gl/light_levels.h"
 
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace patina {
 
 struct GpuEnvironment {
-    gl::Texture panorama;
-    gl::Texture levels;  ///< laid out as LightLevels says
+    std::shared_ptr<gl::Texture> panorama;  ///< shared by all light made from it
+    gl::Texture levels;                     ///< laid out as LightLevels says
     gl::Texture irradiance;
     float panorama_scale = 1.0f;  ///< powers of two that undo how the half floats are stored
     float levels_scale = 1.0f;
@@ -20,6 +21,7 @@ struct GpuEnvironment {
     float texels_per_radian = 1.0f;  ///< of the panorama
     int layers = 1;
     std::vector<float> roughness;  ///< of each level, ascending
+    float sharpest = 1.0f;         ///< lobes sharper than this are made up from the panorama
     std::vector<ExtractedLight> lights;
 };
 

@@ -135,6 +135,7 @@ LightLevels make_light_levels(const BakedEnvironment& baked) {
     }
     result.irradiance_exponent = half_exponent(largest_of(baked.irradiance));
     result.irradiance = {baked.irradiance.size, to_halves(baked.irradiance, result.irradiance_exponent)};
+    result.sharpest = result.roughness.front();
     result.lights = baked.lights;
     return result;
 }

@@ -6,9 +6,12 @@
 #include "renderer/ibl/bake.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace patina {
+
+struct GpuEnvironment;
 
 struct LightLevels {
     struct Cube {
@@ -21,6 +24,8 @@ struct LightLevels {
     int levels_exponent = 0, irradiance_exponent = 0;
     Cube irradiance;
     std::vector<float> roughness;  ///< of each level, ascending
+    float sharpest = 1.0f;  ///< lobes sharper than this are made up from the panorama; of the first level,
+                            ///< if not set otherwise
     std::vector<ExtractedLight> lights;
 };
 
@@ -28,6 +33,7 @@ struct LightLevels {
 struct PreparedLight {
     PanoramaLevels panorama;
     LightLevels levels;
+    std::shared_ptr<const GpuEnvironment> panorama_of = {};  ///< whose panorama it is, instead of panorama
 };
 
 /// Throws std::runtime_error where there is no light to draw with.

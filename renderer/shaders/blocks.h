@@ -29,7 +29,7 @@ PATINA_BLOCK(FrameBlock) {
     vec4 ray_up;              // added once at the picture's upper edge; w: roughness of the blurred backdrop
     vec4 env_from_world[3];   // rows of the rotation from world to environment
     vec4 env_scale;           // panorama, levels, irradiance; w: texels per radian of the panorama
-    vec4 level_layout;        // level count − 1, layers; roughness and alpha of the sharpest level
+    vec4 level_layout;        // level count − 1, layers; roughness and alpha of lobes that need no panorama
     vec4 level_slope[PATINA_LEVEL_ROWS];  // level index = Σ clamp(log2(roughness)·slope + offset, 0, 1)
     vec4 level_offset[PATINA_LEVEL_ROWS];
     vec4 light_direction[PATINA_MAX_LIGHTS];   // xyz world, unit; w: (angular radius / 2)², added to alpha²

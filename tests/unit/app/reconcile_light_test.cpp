@@ -1,0 +1,196 @@
+#include "app/reconcile_light.h"
+
+#include "app/reconcile_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <unistd.h>
+
+namespace patina {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder for baked light and a small gradient to bake, "sky"; "ready" comes with its levels.
+struct Workshop {
+    Workshop() { registry.environments.push_back(source()); }
+    ~Workshop() {
+        std::error_code ignored;
+        fs::remove_all(cache.folder, ignored);
+    }
+    Workshop(const Workshop&) = delete;
+    Workshop& operator=(const Workshop&) = delete;
+
+    static Environment sky() {
+        Environment environment;
+        environment.width = 32;
+        environment.height = 16;
+        environment.title = "Sky";
+        environment.content_hash = 7;
+        for (int i = 0; i < 32 * 16; ++i)
+            environment.radiance.emplace_back(1.0f + 0.01f * float(i / 32), 1.0f, 2.0f);
+        return environment;
+    }
+    EnvironmentSource source() {
+        return {.name = "test",
+                .description = "",
+                .list = [] { return std::vector<EnvironmentItem>{}; },
+                .accepts = [](const std::string& id) { return id == "sky"; },
+                .load =
+                    [this](const std::string&) {
+                        ++decoded;
+                        return sky();
+                    }};
+    }
+    std::optional<ReadyLight> get(const LightOrder& order) {
+        return get_light(registry, order, settings, cache, {});
+    }
+
+    Registry registry;
+    BakeSettings settings{.max_face_size = 16, .face_sizes = {}};
+    BakeCache cache{.folder = fs::temp_directory_path() / ("patina-light-" + std::to_string(::getpid()))};
+    int decoded = 0;
+};
+
+NeededLight one_roughness(float roughness, bool irradiance = true) {
+    return {{{roughness, roughness}}, irradiance};
+}
+
+TEST(DemandedLight, begins_with_a_first_light_and_bakes_the_one_level_that_is_needed) {
+    Workshop shop;
+    LightOrder order{.id = "sky", .needed = one_roughness(0.37f), .first_light = true};
+    const auto first = shop.get(order);
+    ASSERT_TRUE(first);
+    EXPECT_TRUE(first->is_first_light);
+    EXPECT_EQ(first->levels_baked, 0);
+    EXPECT_TRUE(first->held->exact.levels.empty());
+    EXPECT_EQ(first->light->levels.roughness.size(), standard_roughness_levels().size());
+    EXPECT_FALSE(serves(*first->held, *order.needed));
+
+    order.held = first->held;
+    const auto exact = shop.get(order);
+    ASSERT_TRUE(exact);
+    EXPECT_FALSE(exact->is_first_light);
+    EXPECT_EQ(exact->levels_baked, 1);
+    EXPECT_TRUE(exact->irradiance_baked);
+    EXPECT_TRUE(serves(*exact->held, *order.needed));
+    EXPECT_EQ(shop.decoded, 1);
+}
+
+TEST(DemandedLight, adds_levels_without_baking_any_twice) {
+    Workshop shop;
+    LightOrder order{.id = "sky", .needed = one_roughness(0.37f)};
+    order.held = shop.get(order)->held;
+    order.needed = one_roughness(0.4f);
+    const auto wider = shop.get(order);
+    EXPECT_EQ(wider->levels_baked, 2);
+    EXPECT_FALSE(wider->irradiance_baked);
+    EXPECT_EQ(wider->held->exact.levels.size(), 3u);
+    EXPECT_TRUE(serves(*wider->held, one_roughness(0.37f)));
+    order.held = wider->held;
+    order.needed = all_light();
+    const auto all = shop.get(order);
+    EXPECT_TRUE(serves(*all->held, one_roughness(0.9f)));
+    EXPECT_EQ(std::size_t(all->levels_baked), standard_roughness_levels().size() - 2);
+}
+
+TEST(DemandedLight, comes_from_the_disk_without_a_first_light) {
+    Workshop shop;
+    shop.get({.id = "sky", .needed = all_light()});
+    const auto again =
+        shop.get({.id = "sky", .needed = one_roughness(standard_roughness_levels()[4]), .first_light = true});
+    ASSERT_TRUE(again);
+    EXPECT_TRUE(again->from_disk);
+    EXPECT_FALSE(again->is_first_light);
+    EXPECT_EQ(again->held->exact.levels.size(), 1u);
+    const auto whatever = shop.get({.id = "sky", .first_light = true});
+    EXPECT_EQ(whatever->held->exact.levels.size(), standard_roughness_levels().size());
+    EXPECT_TRUE(whatever->held->coarse.levels.empty());
+}
+
+TEST(DemandedLight, bakes_nothing_for_a_mirror) {
+    Workshop shop;
+    const auto mirror = shop.get({.id = "sky", .needed = NeededLight{}, .first_light = true});
+    ASSERT_TRUE(mirror);
+    EXPECT_FALSE(mirror->is_first_light);
+    EXPECT_EQ(mirror->levels_baked, 0);
+    EXPECT_FALSE(mirror->irradiance_baked);
+    EXPECT_FALSE(fs::exists(shop.cache.folder));
+    EXPECT_EQ(mirror->light->levels.levels.size(), 1u);  // one texel, so that there is something to bind
+    EXPECT_EQ(mirror->light->levels.sharpest, kSharpestLevel);
+    EXPECT_NEAR(mirror->held->mean.y, 1.0f, 1e-5f);
+    EXPECT_NEAR(mirror->held->mean.z, 2.0f, 1e-5f);
+}
+
+TEST(DemandedLight, is_drawn_with_coarse_levels_only_where_they_are_nearly_as_good) {
+    Workshop shop;
+    LightOrder order{.id = "sky", .needed = one_roughness(0.2f), .first_light = true};
+    order.held = shop.get(order)->held;
+    HeldLight held = *shop.get(order)->held;
+    const BakedEnvironment drawn = drawn_light(held);
+    EXPECT_EQ(drawn.levels.front().roughness, 0.2f);
+    EXPECT_GE(drawn.levels[1].roughness, 0.4f);
+    EXPECT_EQ(drawn.levels.back().roughness, 1.0f);
+    held.exact.lights = {{{0, 1, 0}, {5, 6, 7}, 0.01f}};  // which coarse levels hold too
+    EXPECT_EQ(drawn_light(held).levels.size(), 1u);
+}
+
+TEST(DemandedLight, reads_a_large_source_again_to_add_to_it) {
+    Workshop shop;
+    LightOrder order{.id = "sky", .needed = one_roughness(0.37f)};
+    HeldLight held = *shop.get(order)->held;
+    held.environment = nullptr;
+    order.held = std::make_shared<HeldLight>(held);
+    order.needed = one_roughness(0.8f);
+    EXPECT_EQ(shop.get(order)->levels_baked, 2);
+    EXPECT_EQ(shop.decoded, 2);
+}
+
+TEST(LightWish, is_what_is_at_hand_where_that_serves) {
+    const std::string base = std::string("sky") + kVersionMark + "0";
+    const LightOrder order{.id = "sky", .needed = one_roughness(0.5f, false), .first_light = true};
+    const LightWish cold = wish_for_light(order, base, {}, {});
+    EXPECT_EQ(base_of(cold.key), base);
+    ASSERT_TRUE(cold.order);
+    EXPECT_TRUE(cold.order->first_light);
+    EXPECT_FALSE(cold.order->held);
+
+    auto coarse = std::make_shared<HeldLight>();
+    coarse->coarse.levels = {{0.5f, {}}};
+    auto exact = std::make_shared<HeldLight>();
+    exact->exact.levels = {{0.5f, {}}};
+    const LightWish finer = wish_for_light(order, base, {{cold.key, coarse, {}}}, {});
+    ASSERT_TRUE(finer.order);
+    EXPECT_EQ(finer.order->held, coarse);
+    EXPECT_NE(finer.key, cold.key);
+    EXPECT_EQ(base_of(finer.key), base);
+
+    const LightWish there = wish_for_light(order, base, {{cold.key, coarse, {}}, {finer.key, exact, {}}}, {});
+    EXPECT_EQ(there.key, finer.key);
+    EXPECT_FALSE(there.order);
+
+    LightOrder unknown = order;
+    unknown.needed = std::nullopt;
+    EXPECT_FALSE(wish_for_light(unknown, base, {{cold.key, coarse, {}}}, {}).order);
+    EXPECT_TRUE(wish_for_light(unknown, base, {}, {}).order);
+
+    auto whole = std::make_shared<HeldLight>();
+    whole->is_whole = true;
+    EXPECT_FALSE(wish_for_light(order, base, {{cold.key, whole, {}}}, {}).order);
+}
+
+TEST(LightWish, has_another_key_for_other_levels) {
+    auto held = std::make_shared<HeldLight>();
+    held->exact.levels = {{0.5f, {}}};
+    const auto key = [&](const NeededLight& needed) {
+        return wish_for_light({.id = "sky", .needed = needed}, "sky\n0", {{"sky\n0\n", held, {}}}, {}).key;
+    };
+    EXPECT_NE(key(one_roughness(0.3f, false)), key(one_roughness(0.7f, false)));
+    EXPECT_NE(key(one_roughness(0.3f, false)), key(one_roughness(0.3f, true)));
+    EXPECT_EQ(key(one_roughness(0.30f, false)), key(one_roughness(0.31f, false)));
+}
+
+}  // namespace
+}  // namespace patina
