@@ -158,6 +158,10 @@ void add_render_and_compare(CLI::App& root, Args& args) {
             ->required()
             ->type_name("FILE");
         add_scene(*app, args.render.scene);
+        app->add_option("--samples", args.render.scene.samples,
+                        "Points a pixel of --shading reference (default 1024)")
+            ->check(CLI::Range(1, 1 << 24))
+            ->type_name("N");
     }
 }
 

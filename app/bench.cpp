@@ -64,7 +64,7 @@ std::vector<FrameCase> frame_cases(SceneLoader& loader, const std::string& envir
     options.view.background = Background::Plain;
     add("split-sum", "-");
     for (const auto& mode : kShadings) {
-        if (mode.value == Shading::SplitSum) continue;
+        if (mode.value == Shading::SplitSum || mode.value == Shading::Reference) continue;
         options.view.shading = mode.value;
         add(std::string(mode.id), "-");
     }

@@ -53,6 +53,15 @@ Features features_of(const Material& material, const std::bitset<kMapSlots>& bou
     return completed(features);
 }
 
+Features reference_features(Features features) {
+    Features read = 0;
+    for (const Feature feature :
+         {Feature::AlbedoMap, Feature::RoughnessMap, Feature::MetallicMap, Feature::AoMap, Feature::NormalMap,
+          Feature::EmissionMap, Feature::Emission})
+        read |= features & Features(feature);
+    return read;
+}
+
 std::vector<Features> all_features() {
     std::vector<Features> result;
     for (Features features = 0; features <= kAll; ++features) {

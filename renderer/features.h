@@ -34,6 +34,9 @@ inline bool has(Features features, Feature feature) { return (features & Feature
 Features features_of(const Material& material, const std::bitset<kMapSlots>& bound, const View& view,
                      float sharpest_roughness);
 
+/// Of those, what the reference's shader reads: maps and emission.
+Features reference_features(Features features);
+
 /// Every value features_of can return.
 std::vector<Features> all_features();
 

@@ -5,6 +5,7 @@
 #include "renderer/gl/environment.h"
 #include "renderer/gl/mesh.h"
 #include "renderer/gl/program.h"
+#include "renderer/gl/reference.h"
 #include "renderer/gl/target.h"
 #include "renderer/gl/texture.h"
 #include "renderer/tonemap.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <bitset>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -102,6 +104,8 @@ void set_switches() {
 
 struct Renderer::State {
     std::map<Features, gl::Program> surfaces;
+    std::map<Features, gl::Program> references;
+    gl::Program depth;                                    ///< of a mesh, nothing else
     std::array<gl::Program, 2> backgrounds;               ///< sharp, blurred
     std::map<std::pair<int, int>, gl::Program> displays;  ///< by samples and tone mapper
     gl::VertexArray nothing = gl::VertexArray::make();    ///< for triangles made in the shader
@@ -111,10 +115,16 @@ struct Renderer::State {
     EnvironmentHandle darkness = make_darkness();
 
     const gl::Program& surface(Features features);
+    const gl::Program& reference(Features features);
+    const gl::Program& depth_only();
     const gl::Program& background(Background background);
     const gl::Program& display(int samples, Tonemap tonemap);
     void bind_light(const GpuEnvironment& environment) const;
     void draw_radiance(const Scene& scene, const GpuEnvironment& environment, RenderTarget& target);
+    void bind_maps(const Scene& scene) const;
+    void draw_background(Background background);
+    void draw_reference(const Scene& scene, const GpuEnvironment& environment, ReferenceTarget& target,
+                        const ReferenceSlice& slice);
     void draw_display(const View& view, const RenderTarget& target);
 };
 
@@ -124,6 +134,21 @@ const gl::Program& Renderer::State::surface(Features features) {
         program = gl::make_program(gl::embedded_shader("mesh.vert.glsl"),
                                    gl::embedded_shader("mesh.frag.glsl"), defines_of(features));
     return program;
+}
+
+const gl::Program& Renderer::State::reference(Features features) {
+    gl::Program& program = references[features];
+    if (!program)
+        program = gl::make_program(gl::embedded_shader("mesh.vert.glsl"),
+                                   gl::embedded_shader("reference.frag.glsl"), defines_of(features));
+    return program;
+}
+
+const gl::Program& Renderer::State::depth_only() {
+    if (!depth)
+        depth =
+            gl::make_program(gl::embedded_shader("mesh.vert.glsl"), gl::embedded_shader("depth.frag.glsl"));
+    return depth;
 }
 
 const gl::Program& Renderer::State::background(Background background) {
@@ -153,6 +178,19 @@ void Renderer::State::bind_light(const GpuEnvironment& environment) const {
     bind_texture(gl::kBrdfUnit, GL_TEXTURE_2D, brdf);
 }
 
+void Renderer::State::bind_maps(const Scene& scene) const {
+    for (std::size_t i = 0; i < scene.maps.size(); ++i)
+        if (scene.maps[i]) bind_texture(gl::kFirstMapUnit + GLuint(i), GL_TEXTURE_2D, scene.maps[i]->texture);
+}
+
+/// After the mesh, at the far plane: only what the mesh leaves free is computed.
+void Renderer::State::draw_background(Background shown) {
+    glDepthMask(GL_FALSE);
+    glUseProgram(background(shown).name());
+    glBindVertexArray(nothing.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
 void Renderer::State::draw_radiance(const Scene& scene, const GpuEnvironment& environment,
                                     RenderTarget& target) {
     glBindFramebuffer(GL_FRAMEBUFFER, target.radiance_framebuffer.name());
@@ -171,18 +209,45 @@ void Renderer::State::draw_radiance(const Scene& scene, const GpuEnvironment& en
                  make_material_block(scene.material, features, frame.camera_position.w));
     bind_light(environment);
     if (scene.mesh) {
-        for (std::size_t i = 0; i < scene.maps.size(); ++i)
-            if (scene.maps[i])
-                bind_texture(gl::kFirstMapUnit + GLuint(i), GL_TEXTURE_2D, scene.maps[i]->texture);
+        bind_maps(scene);
         glUseProgram(surface(features).name());
         gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
     }
-    // After the mesh, at the far plane: only what the mesh leaves free is computed.
     if (scene.view.background == Background::Plain || is_data_view(scene.view.debug)) return;
-    glDepthMask(GL_FALSE);
-    glUseProgram(background(scene.view.background).name());
-    glBindVertexArray(nothing.name());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    draw_background(scene.view.background);
+}
+
+void Renderer::State::draw_reference(const Scene& scene, const GpuEnvironment& environment,
+                                     ReferenceTarget& target, const ReferenceSlice& slice) {
+    View view = scene.view;
+    view.debug = DebugView::Final;
+    const Features features = reference_features(features_for(scene, environment));
+    auto frame = make_frame_block(scene.camera, view, target.size, layout_of(environment),
+                                  std::numeric_limits<float>::max());
+    move_picture(frame, 2.0f * slice.jitter_px / glm::vec2(target.size));
+    const float exposure = frame.camera_position.w;
+    set_switches();
+    gl::begin_reference_slice(target, slice.replicate, slice.weight);
+    upload_block(frame_rows, gl::kFrameSlot, frame);
+    upload_block(material_rows, gl::kMaterialSlot, make_material_block(scene.material, features, exposure));
+    bind_light(environment);
+    if (scene.mesh) {
+        bind_maps(scene);
+        bind_texture(gl::kReferenceUnit, GL_TEXTURE_2D, target.points);
+        gl::begin_reference_pass(gl::ReferencePass::Depth);
+        glUseProgram(depth_only().name());
+        gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
+        gl::begin_reference_pass(gl::ReferencePass::Surface);
+        const gl::Program& program = reference(features);
+        glUseProgram(program.name());
+        const double light = slice.total * double(exposure);
+        glUniform2f(glGetUniformLocation(program.name(), "reference_slice"), float(slice.points),
+                    light > 0.0 ? float(1.0 / light) : 0.0f);
+        gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
+    }
+    gl::begin_reference_pass(gl::ReferencePass::Background);
+    if (view.background != Background::Plain) draw_background(view.background);
+    gl::end_reference_slice();
 }
 
 void Renderer::State::draw_display(const View& view, const RenderTarget& target) {
@@ -274,6 +339,20 @@ void Renderer::draw(const Scene& scene, RenderTarget& target) {
     target.plain = scene.view.plain_color;
     state_->draw_radiance(shown, environment, target);
     state_->draw_display(shown.view, target);
+}
+
+void Renderer::draw_reference(const Scene& scene, ReferenceTarget& target, const ReferenceSlice& slice) {
+    const gl::KeepDrawState keep;
+    Scene shown = scene;
+    if (!scene.environment) shown.view.background = Background::Plain;
+    state_->draw_reference(shown, scene.environment ? *scene.environment : *state_->darkness, target, slice);
+}
+
+void Renderer::show(const View& view, const RenderTarget& target) {
+    const gl::KeepDrawState keep;
+    set_switches();
+    glViewport(0, 0, target.size.x, target.size.y);
+    state_->draw_display(view, target);
 }
 
 void Renderer::prepare(const Scene& scene) {

@@ -47,6 +47,7 @@ struct Scene {
 
 /// Where a picture is drawn: linear radiance and the display picture (8-bit sRGB-encoded).
 struct RenderTarget;
+struct ReferenceTarget;
 using TargetHandle = std::shared_ptr<RenderTarget>;
 /// How radiance is kept: half floats end at 65504 and are what a screen needs, full floats are for measuring
 /// and saving.
@@ -81,9 +82,23 @@ public:
     /// samples: MSAA, clamped to what the driver offers; size ≥ 1×1.
     TargetHandle make_target(glm::ivec2 size_px, int samples = 4,
                              TargetPrecision precision = TargetPrecision::Half);
+    /// Shading::Reference is drawn as split sum here: the reference gathers over many draws (reference.h).
     /// Without an environment only emission and a plain background are seen, without a mesh only the
     /// background. The plain background is shown as it is: neither exposure nor tone mapping touch it.
     void draw(const Scene& scene, RenderTarget& target);
+
+    /// One slice of the reference picture: the points uploaded last, through a picture moved by jitter_px.
+    /// Reference (reference.h) puts the slices together.
+    struct ReferenceSlice {
+        int replicate = 0;
+        int points = 1;
+        float weight = 1.0f;        ///< 0…1, what this slice counts in the sum
+        double total = 0.0;         ///< the light sampler's
+        glm::vec2 jitter_px{0.0f};  ///< −½…½
+    };
+    void draw_reference(const Scene& scene, ReferenceTarget& target, const ReferenceSlice& slice);
+    /// The display picture of what the target's radiance holds.
+    void show(const View& view, const RenderTarget& target);
 
     /// Compiles what is not compiled yet: the first picture of a new kind of material then does not stutter.
     void prepare(const Scene& scene);

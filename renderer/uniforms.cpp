@@ -86,6 +86,15 @@ blocks::FrameBlock make_frame_block(const Camera& camera, const View& view, glm:
     return block;
 }
 
+void move_picture(blocks::FrameBlock& block, glm::vec2 offset) {
+    for (vec4& column : block.view_projection) {
+        column.x += offset.x * column.w;
+        column.y += offset.y * column.w;
+    }
+    const vec3 moved = offset.x * vec3(block.ray_right) + offset.y * vec3(block.ray_up);
+    block.ray_center -= vec4(moved, 0.0f);
+}
+
 blocks::MaterialBlock make_material_block(const Material& material, Features features, float exposure) {
     blocks::MaterialBlock block{};
     block.albedo = vec4(material.albedo.value, 1.0f);

@@ -32,6 +32,9 @@ struct LightLayout {
 blocks::FrameBlock make_frame_block(const Camera& camera, const View& view, glm::ivec2 size_px,
                                     const LightLayout& light, float largest_radiance);
 
+/// Everything is seen offset further to the right and up, in halves of the picture's sides.
+void move_picture(blocks::FrameBlock& block, glm::vec2 offset);
+
 /// features: which maps are read. exposure: factor on what the surface emits.
 blocks::MaterialBlock make_material_block(const Material& material, Features features, float exposure);
 

@@ -9,7 +9,7 @@
 
 namespace patina {
 
-enum class Shading { Course, SplitSum };
+enum class Shading { Course, SplitSum, Reference };
 enum class Tonemap { None, Neutral, Aces };
 enum class Background { Environment, Blurred, Plain };
 /// Final is the shaded picture; the others show one ingredient.
@@ -28,6 +28,11 @@ struct View {
     bool operator==(const View&) const = default;
 };
 
+/// Whether the picture gathers over many draws instead of being drawn at once.
+inline bool is_reference(const View& view) {
+    return view.shading == Shading::Reference && view.debug == DebugView::Final;
+}
+
 template <class T>
 struct Named {
     T value;
@@ -40,6 +45,8 @@ inline constexpr std::array kShadings{
     Named<Shading>{Shading::Course, "course", "Course", "The lecture's formulas to the letter, its simplifications included."},
     Named<Shading>{Shading::SplitSum, "split-sum", "Split sum",
                    "Prefiltered light times a BRDF table, with the energy of multiple scattering put back."},
+    Named<Shading>{Shading::Reference, "reference", "Reference",
+                   "The reflectance integral itself, sampled until it stands still: what the other modes approximate."},
 };
 inline constexpr std::array kTonemaps{
     Named<Tonemap>{Tonemap::None, "none", "None", "Linear values clipped at 1, then sRGB: best for comparing with a photo."},
