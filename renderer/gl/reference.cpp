@@ -178,7 +178,7 @@ PanoramaTexels read_panorama(const GpuEnvironment& environment) {
     const KeepTextureBindings keep;
     const PackTightly pack;
     PanoramaTexels texels;
-    glBindTexture(GL_TEXTURE_2D, environment.panorama.name());
+    glBindTexture(GL_TEXTURE_2D, environment.panorama->name());
     glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &texels.width);
     glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &texels.height);
     texels.radiance.resize(std::size_t(texels.width) * texels.height);
