@@ -67,7 +67,7 @@ struct BakedEnvironment {
 std::vector<float> standard_roughness_levels();
 
 /// Part of the cache key: raised whenever bake_environment's output changes.
-inline constexpr int kBakerVersion = 5;
+inline constexpr int kBakerVersion = 6;
 
 struct BakeSettings {
     std::vector<float> roughness =

@@ -61,15 +61,27 @@ LightPoints join_texels(const TexelGrid& grid, const std::vector<LightTexel>& te
     return points;
 }
 
+struct Lobe {
+    float alpha2;
+    float inner_square = 0.0f, window_scale = 0.0f;  ///< of the split, if there is one
+};
+
 /// Σ flux · K over the points in front of N. K = (1 − 2s) α²/(s + α²(1 − s))² with s = |N − L|²/4, which is
-/// exact for small angles in single precision.
-glm::vec3 sum_points(const LightPoints& points, glm::vec3 N, float alpha2) {
+/// exact for small angles in single precision. Far: K (1 − w), see KernelSplit.
+template <bool kFar>
+glm::vec3 sum_points(const LightPoints& points, glm::vec3 N, const Lobe& lobe) {
+    const float alpha2 = lobe.alpha2;
     float red = 0.0f, green = 0.0f, blue = 0.0f;
     for (std::size_t i = 0; i < points.x.size(); ++i) {
         const float dx = points.x[i] - N.x, dy = points.y[i] - N.y, dz = points.z[i] - N.z;
         const float s = 0.25f * (dx * dx + dy * dy + dz * dz);
         const float d = s + alpha2 * (1.0f - s);
-        const float kernel = std::max(0.0f, 1.0f - 2.0f * s) * alpha2 / (d * d);
+        float kernel = std::max(0.0f, 1.0f - 2.0f * s) * alpha2 / (d * d);
+        if (kFar) {
+            const float t =
+                std::min(1.0f, std::max(0.0f, (4.0f * s - lobe.inner_square) * lobe.window_scale));
+            kernel *= t * t * t * t * (35.0f + t * (-84.0f + t * (70.0f - 20.0f * t)));
+        }
         red += points.red[i] * kernel;
         green += points.green[i] * kernel;
         blue += points.blue[i] * kernel;
@@ -99,13 +111,14 @@ public:
         add(100.0 * light.angular_radius_rad / std::numbers::sqrt2, std::move(whole));  // σ² = R²/2
     }
 
-    glm::vec3 sum(glm::vec3 N, float alpha2) const {
+    glm::vec3 sum(glm::vec3 N, const Lobe& lobe) const {
         const float cosine = glm::dot(N, direction_);
         const Detail* detail = &details_.front();
         if (std::abs(cosine) > horizon_)
             for (const Detail& coarser : details_)
                 if (cosine < coarser.largest_cosine) detail = &coarser;
-        return sum_points(detail->points, N, alpha2);
+        return lobe.window_scale > 0.0f ? sum_points<true>(detail->points, N, lobe)
+                                        : sum_points<false>(detail->points, N, lobe);
     }
 
 private:
@@ -124,8 +137,8 @@ private:
 
 }  // namespace
 
-void fold_back(const LightExtraction& extraction, float roughness, CubeMap& cube,
-               const BakeControl& control) {
+void fold_back(const LightExtraction& extraction, float roughness, const std::optional<KernelSplit>& split,
+               CubeMap& cube, const BakeControl& control) {
     if (extraction.lights.empty() || roughness <= 0.0f) return;
     const double alpha = double(roughness) * roughness;
     const TexelGrid grid = {extraction.residual.width, extraction.residual.height};
@@ -133,13 +146,17 @@ void fold_back(const LightExtraction& extraction, float roughness, CubeMap& cube
     for (std::size_t i = 0; i < extraction.lights.size(); ++i)
         lights.emplace_back(grid, extraction.texels[i], extraction.lights[i], alpha);
     const float scale = float(1.0 / ggx_kernel_integral(alpha));
-    const float alpha2 = float(alpha * alpha);
+    Lobe lobe{.alpha2 = float(alpha * alpha)};
+    if (split) {
+        lobe.inner_square = float(split->inner_square);
+        lobe.window_scale = float(1.0 / (split->outer_square - split->inner_square));
+    }
     control.parallel_for(6 * cube.size, [&](int row) {
         if (control.stop.stop_requested()) return;
         for (int x = 0; x < cube.size; ++x) {
             const glm::vec3 N = cube_texel_direction(cube.size, row / cube.size, x, row % cube.size);
             glm::vec3 sum(0.0f);
-            for (const FoldedLight& light : lights) sum += light.sum(N, alpha2);
+            for (const FoldedLight& light : lights) sum += light.sum(N, lobe);
             cube.texels[std::size_t(row) * cube.size + x] += scale * sum;
         }
     });

@@ -33,19 +33,9 @@ std::vector<ThetaNode> theta_nodes(double alpha, int band) {
     return nodes;
 }
 
-}  // namespace
-
-double ggx_kernel(double theta, double alpha) {
-    const double half = std::sin(0.5 * theta);
-    const double s = half * half;
-    const double d = s + alpha * alpha * (1.0 - s);
-    return std::cos(theta) * alpha * alpha / (d * d);
-}
-
-std::vector<double> ggx_zonal(double alpha, int band) {
-    assert(alpha > 0.0 && band >= 0);
+/// Σ weight · P_l(cos θ) for l = 0 … band.
+std::vector<double> legendre_sums(std::vector<ThetaNode> nodes, int band) {
     constexpr std::size_t together = 8;  // nodes side by side: the sums' order does not depend on the machine
-    std::vector<ThetaNode> nodes = theta_nodes(alpha, band);
     while (nodes.size() % together != 0) nodes.push_back({0.0, 0.0});
     std::vector<double> sums((std::size_t(band) + 1) * together, 0.0);
     for (std::size_t first = 0; first < nodes.size(); first += together) {
@@ -69,6 +59,21 @@ std::vector<double> ggx_zonal(double alpha, int band) {
     }
     std::vector<double> g(std::size_t(band) + 1, 0.0);
     for (std::size_t i = 0; i < sums.size(); ++i) g[i / together] += sums[i];
+    return g;
+}
+
+}  // namespace
+
+double ggx_kernel(double theta, double alpha) {
+    const double half = std::sin(0.5 * theta);
+    const double s = half * half;
+    const double d = s + alpha * alpha * (1.0 - s);
+    return std::cos(theta) * alpha * alpha / (d * d);
+}
+
+std::vector<double> ggx_zonal(double alpha, int band) {
+    assert(alpha > 0.0 && band >= 0);
+    std::vector<double> g = legendre_sums(theta_nodes(alpha, band), band);
     const double total = g[0];
     for (double& value : g) value /= total;
     return g;
@@ -78,6 +83,29 @@ double ggx_kernel_integral(double alpha) {
     double sum = 0.0;
     for (const ThetaNode& node : theta_nodes(alpha, 1)) sum += node.weight;
     return 2.0 * std::numbers::pi * sum;
+}
+
+double KernelSplit::window(double chord_square) const {
+    const double t = std::clamp((chord_square - inner_square) / (outer_square - inner_square), 0.0, 1.0);
+    const double t2 = t * t;
+    return 1.0 - t2 * t2 * (35.0 - 84.0 * t + 70.0 * t2 - 20.0 * t2 * t);
+}
+
+std::vector<double> ggx_far_zonal(double alpha, const KernelSplit& split, int band) {
+    assert(alpha > 0.0 && band >= 0);
+    constexpr double negligible = 1e-7;
+    std::vector<ThetaNode> nodes = theta_nodes(alpha, band);
+    double total = 0.0;
+    for (ThetaNode& node : nodes) {
+        total += node.weight;
+        const double half = std::sin(0.5 * node.theta);
+        node.weight *= 1.0 - split.window(4.0 * half * half);
+    }
+    std::erase_if(nodes, [](const ThetaNode& node) { return node.weight == 0.0; });
+    std::vector<double> g = legendre_sums(std::move(nodes), band);
+    for (double& value : g) value /= total;
+    while (g.size() > 1 && std::abs(g.back()) < negligible) g.pop_back();
+    return g;
 }
 
 }  // namespace patina
