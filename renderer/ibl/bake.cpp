@@ -18,11 +18,12 @@ namespace {
 constexpr int kLevelCount = 16;
 constexpr float kStandardSharpest = 0.0999f;  ///< smoother levels need no more than the standard band
 constexpr int kStandardBand = 600;
-constexpr double kStrongLight = 2e4;  ///< of the mean: a light that reaches beyond the standard band …
-constexpr float kStrongSharpest = 0.1499f;     ///< … up to this roughness
+constexpr double kStrongLight = 2e4;           ///< of the mean: a light that reaches beyond the standard band
 constexpr float kTransformSharpest = 0.0749f;  ///< sharper levels are transformed only far from their middle
 constexpr int kSharpBand = 1000;
-constexpr double kTruncation = 7e-4;  ///< relative rms of what a level leaves out
+constexpr double kTruncation = 2e-3;  ///< relative rms of what a level leaves out
+
+constexpr int kMostFirstRows = 512;  ///< that a first light looks at
 
 /// How much of it all is computed.
 struct Plan {
@@ -101,8 +102,12 @@ std::optional<BakedEnvironment> transform_levels(const RadianceView& view,
     Stopwatch stopwatch;
     BakedEnvironment baked;
     std::vector<std::vector<double>> kernels = make_kernels(settings.roughness, plan, control);
-    std::size_t degrees = 1;
+    std::size_t degrees = 0;
     for (const std::vector<double>& kernel : kernels) degrees = std::max(degrees, kernel.size());
+    if (degrees == 0) {  // copies only
+        for (const float roughness : settings.roughness) baked.levels.push_back({roughness, {}});
+        return baked;
+    }
     const LegendreTables tables(int(degrees) - 1, control.parallel_for);
     if (control.stop.stop_requested()) return std::nullopt;
     const ShCoefficients coefficients = analyse(view, tables, control);
@@ -138,52 +143,37 @@ std::optional<BakedEnvironment> transform_levels(const RadianceView& view,
     return baked;
 }
 
-/// What sharp levels are made from.
-struct SharpSource {
+/// What levels are finished with.
+struct Sources {
     const Environment& environment;
-    const RadianceStatistics& statistics;
     const LightExtraction& extraction;
+    const std::optional<NearField>& near;
+    const std::optional<KernelSplit>& split;
 };
 
-/// Levels too sharp for the standard transform, put before the others. A small bright light has energy in
-/// every degree, and a cut-off spectrum would turn it into rings: it is taken out, and put back exactly. Of
-/// sharper levels still, the far part is done so, and what is near by quadrature. At roughness 0 the
-/// environment is copied. False when stopped.
-bool add_sharp_levels(const SharpSource& source, const BakeSettings& settings, Progress& progress,
-                      BakedEnvironment& baked) {
-    const BakeControl& control = progress.control;
-    const RadianceView& residual = source.extraction.residual;
-    const bool is_standard = settings.roughness.front() >= kStandardSharpest;
-    Plan plan = {.band = is_standard ? kStandardBand : kSharpBand, .irradiance = false, .split = {}};
-    std::optional<NearField> near;
-    if (std::ranges::any_of(settings.roughness, [](float r) { return r > 0.0f && !is_transformed(r); })) {
-        near.emplace(settings.extract_lights ? residual : view_of(source.environment), control);
-        plan.split = near->split();
-    }
-    auto sharp = transform_levels(residual, source.statistics, settings, plan, progress);
-    if (!sharp) return false;
-    baked.timings.transform_ms += sharp->timings.transform_ms;
-    baked.timings.levels_ms += sharp->timings.levels_ms;
+/// What the transform leaves to do: the near part of sharp levels, copies at roughness 0, lights that were
+/// only taken out to be put back exactly. False when stopped.
+bool finish_levels(const Sources& sources, const BakeSettings& settings, const BakeControl& control,
+                   BakedEnvironment& baked) {
+    const bool put_back = !settings.extract_lights;
     Stopwatch stopwatch;
-    for (std::size_t i = 0; i < sharp->levels.size(); ++i) {
-        PrefilteredLevel& level = sharp->levels[i];
-        if (level.roughness <= 0.0f) {
-            level.cube = resample_environment(
-                source.environment, level_size(settings, i, settings.max_face_size), control.parallel_for);
-            baked.timings.levels_ms += stopwatch.lap_ms();
-            continue;
-        }
+    for (std::size_t i = 0; i < baked.levels.size(); ++i) {
+        PrefilteredLevel& level = baked.levels[i];
         const bool is_split = !is_transformed(level.roughness);
-        if (is_split) near->add(double(level.roughness) * level.roughness, *plan.split, level.cube, control);
+        if (level.roughness <= 0.0f)
+            level.cube = resample_environment(
+                sources.environment, level_size(settings, i, settings.max_face_size), control.parallel_for);
+        else if (is_split)
+            sources.near->add(double(level.roughness) * level.roughness, *sources.split, level.cube, control);
         baked.timings.levels_ms += stopwatch.lap_ms();
-        if (!settings.extract_lights)
-            fold_back(source.extraction, level.roughness, is_split ? plan.split : std::nullopt, level.cube,
-                      control);
+        if (put_back)
+            fold_back(sources.extraction, level.roughness, is_split ? sources.split : std::nullopt,
+                      level.cube, control);
         baked.timings.lights_ms += stopwatch.lap_ms();
         if (control.stop.stop_requested()) return false;
     }
-    baked.levels.insert(baked.levels.begin(), std::make_move_iterator(sharp->levels.begin()),
-                        std::make_move_iterator(sharp->levels.end()));
+    if (put_back) fold_back(sources.extraction, 1.0f, std::nullopt, baked.irradiance, control);
+    baked.timings.lights_ms += stopwatch.lap_ms();
     return !control.stop.stop_requested();
 }
 
@@ -209,31 +199,30 @@ std::optional<BakedEnvironment> bake_environment(const Environment& environment,
     Progress progress{control, 4.0};
     for (const float roughness : settings.roughness) progress.total += level_cost(roughness);
     Stopwatch stopwatch;
-    const RadianceStatistics statistics = radiance_statistics(view_of(environment), control.parallel_for);
+    RadianceStatistics statistics = radiance_statistics(view_of(environment), control.parallel_for);
     const glm::vec3 peak = statistics.highest;
     const bool is_strong = std::max({peak.x, peak.y, peak.z}) > kStrongLight * statistics.mean;
-    const auto first_smooth = std::lower_bound(settings.roughness.begin(), settings.roughness.end(),
-                                               is_strong ? kStrongSharpest : kStandardSharpest);
-    BakeSettings sharp = settings, smooth = settings;
-    sharp.roughness.assign(settings.roughness.begin(), first_smooth);
-    smooth.roughness.assign(first_smooth, settings.roughness.end());
-    if (!settings.face_sizes.empty()) {
-        const auto split = settings.face_sizes.begin() + (first_smooth - settings.roughness.begin());
-        sharp.face_sizes.assign(settings.face_sizes.begin(), split);
-        smooth.face_sizes.assign(split, settings.face_sizes.end());
-    }
+    const float sharpest = settings.roughness.empty() ? 1.0f : settings.roughness.front();
+    // A small bright light has energy in every degree, and a cut-off spectrum would turn it into rings.
     LightExtraction extraction;
-    if (settings.extract_lights || !sharp.roughness.empty())
+    extraction.residual = view_of(environment);
+    if (settings.extract_lights || is_strong || sharpest < kStandardSharpest)
         extraction = extract_lights(environment, statistics, {});
+    if (!extraction.lights.empty())
+        statistics = radiance_statistics(extraction.residual, control.parallel_for);
     const double extract_ms = stopwatch.lap_ms();
 
-    const RadianceView view = settings.extract_lights ? extraction.residual : view_of(environment);
-    std::optional<BakedEnvironment> baked{BakedEnvironment{}};
-    if (settings.irradiance || !smooth.roughness.empty())
-        baked = transform_levels(view, statistics, smooth, {.irradiance = settings.irradiance}, progress);
-    if (!baked) return std::nullopt;
-    if (!sharp.roughness.empty() &&
-        !add_sharp_levels({environment, statistics, extraction}, sharp, progress, *baked))
+    Plan plan = {.band = sharpest < kStandardSharpest ? kSharpBand : kStandardBand,
+                 .irradiance = settings.irradiance,
+                 .split = {}};
+    std::optional<NearField> near;
+    if (std::ranges::any_of(settings.roughness, [](float r) { return r > 0.0f && !is_transformed(r); })) {
+        near.emplace(settings.extract_lights ? extraction.residual : view_of(environment), control);
+        plan.split = near->split();
+    }
+    std::optional<BakedEnvironment> baked =
+        transform_levels(extraction.residual, statistics, settings, plan, progress);
+    if (!baked || !finish_levels({environment, extraction, near, plan.split}, settings, control, *baked))
         return std::nullopt;
     if (settings.extract_lights) baked->lights = extraction.lights;
     baked->timings.lights_ms += extract_ms;
@@ -243,7 +232,12 @@ std::optional<BakedEnvironment> bake_environment(const Environment& environment,
 
 std::optional<BakedEnvironment> bake_first_light(const Environment& environment, const BakeSettings& settings,
                                                  const BakeControl& control) {
-    const Environment small = reduce(environment, 128, 64, control.parallel_for);
+    RadianceView some = view_of(environment);  // reading all of a large picture would take longer than this
+    const int step = std::max(1, environment.height / kMostFirstRows);
+    for (int y = 0; y < environment.height / step; ++y)
+        some.rows[y] = some.rows[std::size_t(y) * step + step / 2];
+    some.height = environment.height / step;
+    const Environment small = reduce(some, 128, 64, control.parallel_for);
     BakeSettings smooth = settings;  // sharper levels hold the sharpest that few degrees can
     constexpr float sharpest = 0.25f;
     for (float& roughness : smooth.roughness) roughness = std::max(roughness, sharpest);
