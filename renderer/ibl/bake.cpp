@@ -21,7 +21,7 @@ constexpr int kStandardBand = 600;
 constexpr double kStrongLight = 2e4;           ///< of the mean: a light that reaches beyond the standard band
 constexpr float kTransformSharpest = 0.0749f;  ///< sharper levels are transformed only far from their middle
 constexpr int kSharpBand = 1000;
-constexpr double kTruncation = 2e-3;  ///< relative rms of what a level leaves out
+constexpr double kTruncation = 7e-4;  ///< relative rms of what a level leaves out
 
 constexpr int kMostFirstRows = 512;  ///< that a first light looks at
 

@@ -195,7 +195,7 @@ CubeMap Synthesis::to_cube(const std::vector<double>& zonal, int face_size, cons
     assert(!zonal.empty() && int(zonal.size()) <= coefficients_.tables->band + 1);
     Grid grid;
     grid.band = int(zonal.size()) - 1;
-    grid.rings = (std::max(16, (9 * grid.band + 7) / 8) + 1) / 2 * 2;  // 1⅛ times what the band needs
+    grid.rings = (std::max(16, (5 * grid.band + 3) / 4) + 1) / 2 * 2;  // 1¼ times what the band needs
     grid.columns = friendly_fft_size(2 * grid.rings, 4);
     CubeMap cube{face_size, std::vector<glm::vec3>(std::size_t(6) * face_size * face_size)};
     synthesise_orders(grid, zonal);
