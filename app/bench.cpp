@@ -31,22 +31,6 @@ double milliseconds(const std::function<void()>& action) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// A folder of our own that is gone afterwards.
-struct TemporaryFolder {
-    fs::path path;
-    TemporaryFolder() {
-        const auto stamp = std::chrono::steady_clock::now().time_since_epoch().count();
-        path = fs::temp_directory_path() / ("patina-bench-" + std::to_string(stamp));
-        fs::create_directories(path);
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-};
-
 struct FrameCase {
     std::string name;
     Scene scene;
@@ -81,6 +65,17 @@ std::vector<FrameCase> frame_cases(SceneLoader& loader, const std::string& envir
 }
 
 }  // namespace
+
+TemporaryFolder::TemporaryFolder() {
+    const auto stamp = std::chrono::steady_clock::now().time_since_epoch().count();
+    path = fs::temp_directory_path() / ("patina-bench-" + std::to_string(stamp));
+    fs::create_directories(path);
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+}
 
 std::vector<double> interleaved_medians_ms(const std::vector<std::function<void()>>& actions,
                                            int repetitions) {

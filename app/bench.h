@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -34,6 +35,15 @@ struct Benchmark {
 /// Median milliseconds of each action, run in turn (a b c … c b a, …) repetitions times after one warm-up.
 std::vector<double> interleaved_medians_ms(const std::vector<std::function<void()>>& actions,
                                            int repetitions);
+
+/// A folder of our own that is gone afterwards.
+struct TemporaryFolder {
+    std::filesystem::path path;
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+};
 
 /// Cost of a frame by shading mode, features and size, on this machine's GL.
 nlohmann::ordered_json bench_frame(const BenchContext& context);

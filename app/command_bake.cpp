@@ -90,6 +90,7 @@ std::optional<BakedEnvironment> bake_as_asked(const Environment& environment, co
     if (args.format == "ktx") return bake_for_ktx(environment, args.size, control);
     BakeSettings settings;
     settings.max_face_size = args.size;
+    settings.extract_lights = !args.keep_lights;
     if (!args.roughness.empty()) settings.roughness = args.roughness;
     return bake_environment(environment, settings, control);
 }

@@ -1,5 +1,6 @@
 // patina bench: runs benchmarks by name; tables on standard output, one JSON file each.
 #include "app/bench.h"
+#include "app/bench_markdown.h"
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/paths.h"
@@ -65,6 +66,12 @@ int run_bench(const BenchArgs& args, const Registry& registry) {
         const std::filesystem::path file = folder / (std::string(benchmark->name) + ".json");
         write_file(file, std::as_bytes(std::span(text)));
         say("wrote " + utf8_from_path(file));
+        const std::string table = bench_markdown(benchmark->name, result);
+        if (!table.empty()) {
+            const std::filesystem::path page = folder / (std::string(benchmark->name) + ".md");
+            write_file(page, std::as_bytes(std::span(table)));
+            say("wrote " + utf8_from_path(page));
+        }
         for (const NamedPlot& each : bench_plots(benchmark->name, result))
             for (const std::filesystem::path& picture : save_plot(folder / each.stem, each.plot))
                 say("wrote " + utf8_from_path(picture));

@@ -70,11 +70,27 @@ Plot ibl_plot(const Json& result, double roughness) {
     }
     plot.guides = {{0.1, "0.1 %"}};
     plot.notes = {
-        "Error against quadrature over all texels in double precision. A level of the transform counts its "
-        "share "
-        "of what all levels need."};
+        "Error against quadrature over all texels in double precision. A level is baked alone, with all it "
+        "needs; first light counts all its levels."};
     if (result.contains("instruction_set"))
         plot.notes.push_back("Instruction set: " + result.at("instruction_set").get<std::string>() + ".");
+    return plot;
+}
+
+Plot scaling_plot(const Json& rows) {
+    Plot plot;
+    plot.title = "Baking by size of the panorama";
+    plot.subtitle = "All standard levels and the irradiance; first light";
+    plot.x = {"megapixels", true};
+    plot.y = {"time (ms)", true};
+    for (const Json& row : rows) {
+        const double megapixels = row.at("width").get<double>() * row.at("height").get<double>() / 1e6;
+        const std::string threads = " on " + std::to_string(row.at("threads").get<int>()) +
+                                    (row.at("threads").get<int>() == 1 ? " thread" : " threads");
+        series_named(plot, "bake" + threads).points.push_back({megapixels, row.at("bake_ms"), ""});
+        series_named(plot, "first light" + threads)
+            .points.push_back({megapixels, row.at("first_light_ms"), ""});
+    }
     return plot;
 }
 
@@ -89,6 +105,7 @@ std::vector<NamedPlot> ibl_plots(const Json& result) {
         digits.insert(0, std::size_t(std::max(0, 3 - int(digits.size()))), '0');
         plots.push_back({"ibl-roughness-" + digits, ibl_plot(result, roughness)});
     }
+    if (result.contains("scaling")) plots.push_back({"ibl-scaling", scaling_plot(result.at("scaling"))});
     return plots;
 }
 
