@@ -4,6 +4,7 @@
 #include "app/jobs.h"
 #include "app/paths.h"
 #include "app/scene_loader.h"
+#include "app/temporary_folder.h"
 #include "materials/material_io.h"
 
 #include <nlohmann/json.hpp>
@@ -66,17 +67,6 @@ std::vector<FrameCase> frame_cases(SceneLoader& loader, const std::string& envir
 
 }  // namespace
 
-TemporaryFolder::TemporaryFolder() {
-    const auto stamp = std::chrono::steady_clock::now().time_since_epoch().count();
-    path = fs::temp_directory_path() / ("patina-bench-" + std::to_string(stamp));
-    fs::create_directories(path);
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-}
-
 std::vector<double> interleaved_medians_ms(const std::vector<std::function<void()>>& actions,
                                            int repetitions) {
     std::vector<std::vector<double>> times(actions.size());
@@ -122,8 +112,8 @@ Json bench_frame(const BenchContext& context) {
 
 Json bench_light(const BenchContext& context) {
     const Jobs jobs(worker_count());
-    const TemporaryFolder folder;
-    const BakeCache cache{.folder = folder.path};
+    const TemporaryFolder folder("patina-bench");
+    const BakeCache cache{.folder = folder.path()};
     Json json{{"environments", Json::array()}};
     std::printf("%-36s %10s %10s %10s\n", "light (ms)", "load", "bake", "cached");
     for (const std::string& id : context.environments) {

@@ -36,19 +36,12 @@ struct Benchmark {
 std::vector<double> interleaved_medians_ms(const std::vector<std::function<void()>>& actions,
                                            int repetitions);
 
-/// A folder of our own that is gone afterwards.
-struct TemporaryFolder {
-    std::filesystem::path path;
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-};
-
 /// Cost of a frame by shading mode, features and size, on this machine's GL.
 nlohmann::ordered_json bench_frame(const BenchContext& context);
 /// Cost of light: decoding, baking, reading it back from the disk cache.
 nlohmann::ordered_json bench_light(const BenchContext& context);
+/// The editor's start, cold and warm, against a bare window. Needs a display.
+nlohmann::ordered_json bench_start(const BenchContext& context);
 /// Prefiltering: run time against error, method by method.
 nlohmann::ordered_json bench_ibl(const BenchContext& context);
 /// Properties on random cases: the worst of each against its tolerance.

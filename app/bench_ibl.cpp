@@ -4,6 +4,7 @@
 #include "app/jobs.h"
 #include "app/paths.h"
 #include "app/scene_loader.h"
+#include "app/temporary_folder.h"
 #include "renderer/ibl/bench.h"
 #include "renderer/ibl/cache.h"
 
@@ -106,13 +107,13 @@ Json scaling(const BenchContext& context, const Environment& source, const Paral
 
 /// What keeping a bake costs, and what reading it back saves.
 Json cache_times(const BenchContext& context, const Environment& environment, const ParallelFor& all) {
-    const TemporaryFolder folder;
-    const BakeCache cache{.folder = folder.path};
+    const TemporaryFolder folder("patina-bench");
+    const BakeCache cache{.folder = folder.path()};
     const BakeControl control{.parallel_for = all, .stop = {}};
     const std::vector<double> ms =
         interleaved_medians_ms({[&] {
                                     std::error_code ignored;
-                                    std::filesystem::remove_all(folder.path, ignored);
+                                    std::filesystem::remove_all(folder.path(), ignored);
                                     cached_bake(environment, {}, control, cache);
                                 },
                                 [&] { cached_bake(environment, {}, control, cache); }},
