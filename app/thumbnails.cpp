@@ -83,7 +83,8 @@ void find_preset_picture(const Registry& registry, const fs::path& folder, const
         const MapRequest request = map_request(found.material, MapSlot(i));
         if (request.file.empty()) continue;
         try {
-            found.maps[i] = load_map(registry, request, kMapPx);
+            request.finest_side = kMapPx;
+            found.maps[i] = load_map(registry, request);
         } catch (const std::exception&) {
             found.maps[i]
                 .reset();  // shown by its value alone; the editor says what is missing once it is opened
