@@ -30,6 +30,7 @@ inline constexpr GLuint kLevelsUnit = 1;
 inline constexpr GLuint kIrradianceUnit = 2;
 inline constexpr GLuint kBrdfUnit = 3;
 inline constexpr GLuint kFirstMapUnit = 4;  ///< six of them, in MapSlot's order
+inline constexpr GLuint kLobesUnit = 10;
 inline constexpr GLuint kPictureUnit = 0;   ///< what the display pass reads
 inline constexpr GLuint kFrameSlot = 0;     ///< uniform buffer binding of FrameBlock
 inline constexpr GLuint kMaterialSlot = 1;  ///< and of MaterialBlock
