@@ -74,7 +74,7 @@ private:
     bool needs_frame() const;
     void frame();
     void draw_view(glm::ivec2 size_px);
-    bool wants_refining() const { return has_drawn_ && shown_ != Quality::Good; }
+    bool wants_refining() const { return has_drawn_ && shown_ != Pace::Good; }
     Sight sight() const;
     void fill_status();
     void fill_thumbnails();
@@ -95,10 +95,10 @@ private:
     const Camera home_camera_;
 
     TargetHandle target_;  ///< what is shown, one of targets_
-    std::array<TargetHandle, kQualities> targets_;
+    std::array<TargetHandle, kPaces> targets_;
     glm::ivec2 size_px_{0};  ///< of the picture on the screen
     ViewPace pace_;
-    Quality shown_ = Quality::Good;
+    Pace shown_ = Pace::Good;
     double changed_s_ = 0.0;        ///< when the picture was last another one
     std::optional<double> drew_s_;  ///< when this frame's picture was begun
     Drawn drawn_;
@@ -210,11 +210,11 @@ void Loop::draw_view(glm::ivec2 size_px) {
     const double now_s = window_.time_s();
     if (changed) changed_s_ = now_s;
     if (!changed && !(wants_refining() && now_s - changed_s_ >= kStillSeconds)) return;
-    const Quality quality = changed && has_drawn_ ? pace_.while_moving() : Quality::Good;
-    const glm::ivec2 pixels = quality == Quality::Rough ? (size_px + 1) / 2 : size_px;
+    const Pace quality = changed && has_drawn_ ? pace_.while_moving() : Pace::Good;
+    const glm::ivec2 pixels = quality == Pace::Rough ? (size_px + 1) / 2 : size_px;
     TargetHandle& target = targets_[int(quality)];
     if (!target || Renderer::size_px(*target) != pixels)
-        target = renderer_.make_target(pixels, quality == Quality::Good ? kSamples : 1);
+        target = renderer_.make_target(pixels, quality == Pace::Good ? kSamples : 1);
     if (target != target_)
         frames_wanted_ = std::max(frames_wanted_, 1);  // this frame still shows the old one
     size_px_ = size_px;

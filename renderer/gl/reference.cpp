@@ -2,7 +2,9 @@
 
 #include "renderer/gl/program.h"
 #include "renderer/gl/texture.h"
+#include "renderer/ibl/panorama.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -174,6 +176,15 @@ std::vector<float> read_replicates(const ReferenceTarget& target) {
 
 void wait_for_gpu() { glFinish(); }
 
+/// The colour of the light that lies nearest to a direction, with a mean channel of 1 (light.glsl).
+static glm::vec3 nearest_color(const std::vector<ExtractedLight>& lights, glm::vec3 d) {
+    const auto nearest = std::ranges::max_element(
+        lights, {}, [&](const ExtractedLight& light) { return glm::dot(light.direction, d); });
+    if (nearest == lights.end()) return glm::vec3(1.0f);
+    const glm::vec3 E = nearest->irradiance;
+    return E * (3.0f / std::max(E.x + E.y + E.z, 1e-30f));
+}
+
 PanoramaTexels read_panorama(const GpuEnvironment& environment) {
     const KeepTextureBindings keep;
     const PackTightly pack;
@@ -181,9 +192,20 @@ PanoramaTexels read_panorama(const GpuEnvironment& environment) {
     glBindTexture(GL_TEXTURE_2D, environment.panorama->name());
     glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &texels.width);
     glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &texels.height);
-    texels.radiance.resize(std::size_t(texels.width) * texels.height);
-    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGB, GL_FLOAT, texels.radiance.data());
-    for (glm::vec3& texel : texels.radiance) texel *= environment.panorama_scale;
+    std::vector<glm::vec4> stored(std::size_t(texels.width) * texels.height);
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, stored.data());
+    const TexelGrid grid{texels.width, texels.height};
+    texels.radiance.reserve(stored.size());
+    for (std::size_t i = 0; i < stored.size(); ++i) {
+        glm::vec3 radiance(stored[i]);
+        if (stored[i].w > 0.0f) {
+            const double x = double(i % std::size_t(texels.width)) + 0.5;
+            const double y = double(i / std::size_t(texels.width)) + 0.5;
+            radiance +=
+                stored[i].w * nearest_color(environment.panorama_lights, glm::vec3(grid.direction(x, y)));
+        }
+        texels.radiance.push_back(radiance * environment.panorama_scale);
+    }
     return texels;
 }
 

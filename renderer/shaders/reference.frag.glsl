@@ -83,7 +83,9 @@ mat3 frame_around(vec3 N) {
 vec3 panorama_texel(vec3 d) {
     ivec2 size = textureSize(panorama_map, 0);
     ivec2 at = ivec2(panorama_coordinates(d) * vec2(size));
-    return texelFetch(panorama_map, clamp(at, ivec2(0), size - 1), 0).rgb * env_scale.x;
+    vec4 texel = texelFetch(panorama_map, clamp(at, ivec2(0), size - 1), 0);
+    if (texel.a > 0.0) texel.rgb += texel.a * light_color(d);
+    return texel.rgb * env_scale.x;
 }
 
 vec3 estimate(Sampled p, mat3 frame, int i) {
@@ -101,6 +103,7 @@ void main() {
     vec2 st = vec2(map_uv.x, 1.0 - map_uv.y);   // maps are stored top row first
     vec3 V = normalize(camera_position.xyz - world_position);
     Surface s = read_surface(st);
+    s.roughness = widened_roughness(s.roughness, s.spread);
     vec3 N = shading_normal(V, st);
     mat3 frame = frame_around(environment_direction(N));
     vec3 local = environment_direction(V) * frame;
