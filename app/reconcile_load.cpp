@@ -4,6 +4,7 @@
 #include "materials/material_io.h"
 #include "materials/params.h"
 #include "materials/text_io.h"
+#include "renderer/map_detail.h"
 
 #include <algorithm>
 #include <cmath>

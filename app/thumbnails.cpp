@@ -80,7 +80,7 @@ void find_preset_picture(const Registry& registry, const fs::path& folder, const
     found.cache_file = cache_file(folder, content);
     if (take_from_cache(found)) return;
     for (int i = 0; i < kMapSlots; ++i) {
-        const MapRequest request = map_request(found.material, MapSlot(i));
+        MapRequest request = map_request(found.material, MapSlot(i));
         if (request.file.empty()) continue;
         try {
             request.finest_side = kMapPx;

@@ -4,6 +4,8 @@
 #include "renderer/gl/texture.h"
 #include "renderer/ibl/panorama.h"
 
+#include <glm/glm.hpp>
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>
