@@ -3,12 +3,14 @@
 #include "app/drive.h"
 #include "app/editor_state.h"
 #include "app/paths.h"
+#include "app/view_pace.h"
 #include "app/window.h"
 #include "materials/text_io.h"
 #include "renderer/core/image_io.h"
 #include "ui/workspace.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <ctime>
 #include <exception>
@@ -20,11 +22,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr int kSamples = 4;           ///< a pixel, of a good picture
 constexpr int kFramesAfterEvent = 3;  ///< the one that shows it, and two in which popups and layouts settle
 constexpr double kCaretSeconds = 0.3;
 constexpr double kAnimationSeconds = 1.0 / 60.0;
 
 BakeCache bake_cache() { return {.folder = cache_folder() / "ibl"}; }
+
+constexpr double kStillSeconds = 0.2;  ///< without a change before a quick picture is drawn again, well
 
 /// What the picture was drawn from: it is drawn again when any of this differs.
 struct Drawn {
@@ -68,6 +73,7 @@ private:
     bool needs_frame() const;
     void frame();
     void draw_view(glm::ivec2 size_px);
+    bool wants_refining() const { return has_drawn_ && shown_ != Quality::Good; }
     void fill_status();
     void fill_thumbnails();
     void after_frame(const ui::PanelContext& context);
@@ -86,7 +92,13 @@ private:
     ui::ItemRecorder items_;
     const Camera home_camera_;
 
-    TargetHandle target_;
+    TargetHandle target_;  ///< what is shown, one of targets_
+    std::array<TargetHandle, kQualities> targets_;
+    glm::ivec2 size_px_{0};  ///< of the picture on the screen
+    ViewPace pace_;
+    Quality shown_ = Quality::Good;
+    double changed_s_ = 0.0;        ///< when the picture was last another one
+    std::optional<double> drew_s_;  ///< when this frame's picture was begun
     Drawn drawn_;
     bool has_drawn_ = false;
     std::uint64_t views_ = 0, turns_ = 0;
@@ -154,7 +166,7 @@ void Loop::take_events() {
 bool Loop::idle() const {
     return frames_wanted_ == 0 && !animating_ && !more_uploads_ && jobs_.running().empty() &&
            !editor_.reconciler.pending() && !editor_.thumbnails.busy() &&
-           !jobs_.is_running(editor_.autosave_job) && !drop_;
+           !jobs_.is_running(editor_.autosave_job) && !drop_ && !wants_refining();
 }
 
 /// Everything that goes on without the interface.
@@ -175,6 +187,7 @@ bool Loop::needs_frame() const {
            editor_.thumbnails.version() != thumbnails_shown_ || jobs_.running() != jobs_shown_ ||
            editor_.reconciler.pending() != pending_shown_ ||
            (window_.wants_text() && window_.time_s() - last_frame_s_ >= kCaretSeconds) ||
+           (wants_refining() && window_.time_s() - changed_s_ >= kStillSeconds) ||
            (editor_.reconciler.drawable() &&
             !(signature_of(editor_.reconciler.scene(editor_.camera, editor_.document.view)) == drawn_));
 }
@@ -183,12 +196,22 @@ void Loop::draw_view(glm::ivec2 size_px) {
     if (size_px.x <= 0 || size_px.y <= 0 || !editor_.reconciler.drawable()) return;
     const Scene scene = editor_.reconciler.scene(editor_.camera, editor_.document.view);
     Drawn wanted = signature_of(scene);
-    const bool resized = !target_ || Renderer::size_px(*target_) != size_px;
-    if (!resized && has_drawn_ && wanted == drawn_) return;
-    if (resized) {
-        target_ = renderer_.make_target(size_px);
+    const bool resized = size_px != size_px_;
+    const bool changed = resized || !has_drawn_ || !(wanted == drawn_);
+    const double now_s = window_.time_s();
+    if (changed) changed_s_ = now_s;
+    if (!changed && !(wants_refining() && now_s - changed_s_ >= kStillSeconds)) return;
+    const Quality quality = changed && has_drawn_ ? pace_.while_moving() : Quality::Good;
+    const glm::ivec2 pixels = quality == Quality::Rough ? (size_px + 1) / 2 : size_px;
+    TargetHandle& target = targets_[int(quality)];
+    if (!target || Renderer::size_px(*target) != pixels)
+        target = renderer_.make_target(pixels, quality == Quality::Good ? kSamples : 1);
+    if (target != target_)
         frames_wanted_ = std::max(frames_wanted_, 1);  // this frame still shows the old one
-    }
+    size_px_ = size_px;
+    target_ = target;
+    shown_ = quality;
+    drew_s_ = now_s;
     renderer_.draw(scene, *target_);
     drawn_ = std::move(wanted);
     has_drawn_ = true;
@@ -271,6 +294,7 @@ void Loop::frame() {
     const std::optional<fs::path> screenshot = drive_ ? drive_->take_screenshot() : std::nullopt;
     Image picture;
     window_.end_frame(screenshot ? &picture : nullptr);
+    if (drew_s_) pace_.took(shown_, window_.time_s() - *std::exchange(drew_s_, std::nullopt));
     if (screenshot) save_image(*screenshot, picture);
 }
 
@@ -300,6 +324,7 @@ double Loop::sleep_s() const {
     if (needs_frame()) return 0.0;
     double wait = next_errand_s(editor_, window_.time_s());
     if (window_.wants_text()) wait = std::min(wait, kCaretSeconds);
+    if (wants_refining()) wait = std::min(wait, kStillSeconds);
     if (editor_.thumbnails.busy()) wait = std::min(wait, kAnimationSeconds);
     if (drive_) wait = std::min(wait, 0.02);
     return std::max(wait, 0.001);

@@ -136,6 +136,8 @@ struct ImportSheet {
     std::vector<ImportRow> rows;
     std::vector<std::string> notes;  ///< "height.png has no slot and is left out"
     bool rename_material = true;     ///< give the material the set's name
+    std::string mesh;                ///< a mesh that lay with the maps; empty: none, or several
+    bool use_mesh = true;            ///< show the material on it
 };
 
 // ---- the file browser ----
@@ -180,7 +182,9 @@ struct FileBrowser {
     std::string selected;   ///< path
     std::string file_name;  ///< SavePreset, ExportRender
     std::string typed_folder;
-    bool show_all = false;  ///< also files of other types
+    std::string new_folder;      ///< the name being typed for one
+    bool naming_folder = false;  ///< the keyboard belongs to it
+    bool show_all = false;       ///< also files of other types
 };
 
 // ---- the interface's own state, nothing of the document ----
