@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <system_error>
 
 namespace {
 
@@ -10,7 +12,10 @@ using namespace patina;
 
 #ifdef __linux__
 TEST(DriverCache, is_switched_off_where_the_disk_has_no_room) {
-    ::setenv("MESA_SHADER_CACHE_DIR", "/proc/self", 1);  // a disk of no bytes
+    std::error_code failure;
+    const std::filesystem::space_info nothing = std::filesystem::space("/proc/self", failure);
+    if (failure || nothing.available != 0) GTEST_SKIP() << "there is no disk of no bytes here";
+    ::setenv("MESA_SHADER_CACHE_DIR", "/proc/self", 1);
     ::unsetenv("MESA_SHADER_CACHE_DISABLE");
     keep_driver_off_a_full_disk();
     const char* disabled = std::getenv("MESA_SHADER_CACHE_DISABLE");
