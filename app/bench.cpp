@@ -62,6 +62,7 @@ std::vector<FrameCase> frame_cases(SceneLoader& loader, const std::string& envir
         cases.push_back({name, std::move(scene)});
     };
     options.view.background = Background::Plain;
+    options.size_px = {};  // drawn in several sizes: maps with all detail
     add("split-sum", "-");
     for (const auto& mode : kShadings) {
         if (mode.value == Shading::SplitSum || mode.value == Shading::Reference) continue;

@@ -68,6 +68,7 @@ private:
     bool needs_frame() const;
     void frame();
     void draw_view(glm::ivec2 size_px);
+    Sight sight() const;
     void fill_status();
     void fill_thumbnails();
     void after_frame(const ui::PanelContext& context);
@@ -161,12 +162,18 @@ bool Loop::idle() const {
 void Loop::think() {
     jobs_.poll();
     const double now_s = window_.time_s();
-    more_uploads_ = editor_.reconciler.update(editor_.document, editor_.opened);
+    more_uploads_ = editor_.reconciler.update(editor_.document, editor_.opened, sight());
     const bool calm = jobs_.running().empty() && !editor_.reconciler.pending() && !editor_.ui.viewport_drag;
     editor_.thumbnails.step(calm);
     watch_files(editor_, now_s);
     keep_work(editor_, now_s);
     settle(editor_, true);
+}
+
+/// Before the first frame the view is taken to be as high as the window.
+Sight Loop::sight() const {
+    const int height = target_ ? Renderer::size_px(*target_).y : window_.framebuffer_px().y;
+    return {editor_.camera, std::max(height, 1)};
 }
 
 bool Loop::needs_frame() const {
@@ -277,7 +284,7 @@ void Loop::frame() {
 void Loop::after_frame(const ui::PanelContext& context) {
     carry_out(editor_, context.requests);
     settle(editor_, context.result.item_active || context.result.viewport_active);
-    editor_.reconciler.update(editor_.document, editor_.opened);
+    editor_.reconciler.update(editor_.document, editor_.opened, sight());
     draw_view(context.result.viewport_size_px);
     animating_ = context.result.wants_redraw;
     if (editor_.clipboard) window_.set_clipboard(*std::exchange(editor_.clipboard, std::nullopt));

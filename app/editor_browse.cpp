@@ -95,7 +95,8 @@ void export_picture(Editor& editor, const ui::request::ExportRender& request) {
         const glm::ivec2 size(std::clamp(request.width, 1, kMaxPictureSide),
                               std::clamp(request.height, 1, kMaxPictureSide));
         const TargetHandle target = editor.renderer.make_target(size);
-        editor.renderer.draw(editor.reconciler.scene(editor.camera, editor.document.view), *target);
+        editor.renderer.draw(editor.reconciler.detailed_scene(editor.camera, editor.document.view, size.y),
+                             *target);
         const bool radiance = exporter.extensions.front() == "exr";
         auto picture = std::make_shared<Image>(radiance ? editor.renderer.read_radiance(*target)
                                                         : editor.renderer.read_display(*target));

@@ -25,10 +25,12 @@ struct HeldMap {
     MapHandle thumbnail;
     ui::MapStatus status;  ///< of a loaded map; without a texture id
     ChannelRanges ranges;
+    int side = 0;  ///< texels of the finest level that was asked for; 0: all are there
 };
 struct HeldMesh {
     MeshHandle handle;
     std::shared_ptr<const Mesh> mesh;  ///< for adding tangents later
+    float uv_stretch = 0.0f;
     ui::MeshInfo info;
 };
 struct HeldEnvironment {
@@ -77,10 +79,13 @@ struct Reconciler::State {
     std::vector<std::pair<std::string, FileStamp>> files_read;
     ReconcileCounts counts;
     std::map<std::string, LightOrder> light_orders;  ///< of what is wanted, by key
+    std::map<std::string, MapRequest> map_requests;  ///< likewise
+    Sight sight;
 
     // The picture: what was complete last.
     Material material;
     std::array<MapHandle, kMapSlots> handles;
+    MapRanges ranges;  ///< of handles
     std::uint64_t opened = 0;
     bool presented = false;
     std::array<ui::MapStatus, kMapSlots> status;
@@ -92,10 +97,14 @@ struct Reconciler::State {
         return id + kVersionMark + std::to_string(found == versions.end() ? 0 : found->second);
     }
     void want(const Document& document);
+    std::string want_map(MapRequest request, const Material& wanted);
+    int visible_side(const Material& wanted, const Sight& seen) const;
+    bool has_map(int slot) const;
     std::optional<NeededLight> needed_by(const Document& document) const;
     std::string light_key(const std::string& environment, const std::optional<NeededLight>& needed);
-    void start_missing(const Document& document);
+    void start_missing();
     Jobs::Id start_map(const std::string& key, const MapRequest& request);
+    void finish_map(const std::string& key, HeldMap held, std::uint64_t bytes);
     Jobs::Id start_mesh(const std::string& key);
     Jobs::Id start_environment(const std::string& key);
     void count_light(const LightOrder& order, const ReadyLight& ready);
@@ -111,6 +120,7 @@ struct Reconciler::State {
     void note(const std::string& id, const std::vector<std::string>& notes) const;
     bool slot_ready(const Document& document, int slot) const;
     bool light_ready() const;
+    std::optional<ChannelRanges> ranges_of(int slot) const;
     MapHandle handle_for(const Document& document, int slot) const;
     void present(const Document& document, std::uint64_t opened_now);
     void report(const Document& document);
@@ -134,27 +144,56 @@ std::string map_key(const std::string& versioned_file, const MapRequest& request
 }  // namespace
 
 void Reconciler::State::want(const Document& document) {
+    map_requests.clear();
     for (int i = 0; i < kMapSlots; ++i) {
         const MapRequest request = map_request(document.material, MapSlot(i));
-        maps.want(i, request.file.empty() ? std::string{} : map_key(versioned(request.file), request));
+        maps.want(i, request.file.empty() ? std::string{} : want_map(request, document.material));
     }
     const bool tangents = !document.material.normal.map.empty();
-    meshes.want(0, versioned(document.mesh) + (tangents ? " t" : ""));
+    meshes.want(0, versioned(document.mesh) + (tangents || !options.skip ? " t" : ""));
     light_orders.clear();
     environments.want(0, light_key(document.environment, needed_by(document)));
+}
+
+/// Of a material's maps on the mesh that is shown.
+int Reconciler::State::visible_side(const Material& wanted, const Sight& seen) const {
+    const auto& mesh = meshes.slot(0).value;
+    return visible_map_side(mesh ? mesh->uv_stretch : kUsualUvStretch, wanted.uv.scale,
+                            options.skip ? seen : Sight{});
+}
+
+/// The key of what is there if it is fine enough.
+std::string Reconciler::State::want_map(MapRequest request, const Material& wanted) {
+    request.finest_side = visible_side(wanted, sight);
+    const std::string map = map_key(versioned(request.file), request);
+    std::string at_hand;
+    maps.visit([&](const std::string& key, const HeldMap& held) {
+        const bool fine = held.side == 0 || (request.finest_side > 0 && held.side >= request.finest_side);
+        if (fine && map_of_key(key) == map) at_hand = key;
+    });
+    if (!at_hand.empty()) return at_hand;
+    const std::string key = map + kDetailMark + std::to_string(request.finest_side);
+    map_requests[key] = request;
+    return key;
+}
+
+/// The wanted map is shown, if perhaps not yet in the detail wanted.
+bool Reconciler::State::has_map(int slot) const {
+    const auto& [keys, value, error] = maps.slot(slot);
+    return value && !keys.wanted.empty() && map_of_key(keys.shown) == map_of_key(keys.wanted);
 }
 
 /// Not known before the maps are there that tell it.
 std::optional<NeededLight> Reconciler::State::needed_by(const Document& document) const {
     if (!options.skip) return all_light();
-    MapRanges ranges;
+    MapRanges known;
     for (const MapSlot slot : {MapSlot::Roughness, MapSlot::Metallic, MapSlot::Normal}) {
         const auto& [keys, value, error] = maps.slot(std::size_t(slot));
         if (keys.wanted.empty()) continue;
-        if (!keys.ready()) return std::nullopt;
-        ranges[std::size_t(slot)] = keys.wanted == keys.shown && value ? value->ranges : ChannelRanges{};
+        if (!keys.ready() && !has_map(int(slot))) return std::nullopt;
+        known[std::size_t(slot)] = has_map(int(slot)) ? value->ranges : ChannelRanges{};
     }
-    return needed_light(document.material, ranges, document.view);
+    return needed_light(document.material, known, document.view);
 }
 
 std::string Reconciler::State::light_key(const std::string& environment,
@@ -229,11 +268,12 @@ Jobs::Id Reconciler::State::start_map(const std::string& key, const MapRequest& 
     const auto work = [this, key, request, stamp](JobContext&) -> Jobs::Done {
         *stamp = stamp_of(utf8_to_path(request.file));
         const auto ready = std::make_shared<ReadyMap>(load_map(registry, request));
-        return [this, key, ready, stamp] {
+        return [this, key, request, ready, stamp] {
             files_read.emplace_back(id_of(key), *stamp);
             const std::uint64_t bytes = bytes_of(*ready->levels);
+            const int side = request.finest_side;
             expect(maps, key, ready, std::exchange(ready->levels, nullptr),
-                   [this, key, bytes](const ReadyMap& map, MapHandle handle) {
+                   [this, key, bytes, side](const ReadyMap& map, MapHandle handle) {
                        HeldMap held{.handle = std::move(handle),
                                     .thumbnail = renderer.upload_thumbnail(map.thumbnail)};
                        held.status = {.state = ui::MapState::Ok,
@@ -243,11 +283,23 @@ Jobs::Id Reconciler::State::start_map(const std::string& key, const MapRequest& 
                                       .bits = map.bits,
                                       .file_bytes = map.file_bytes};
                        held.ranges = map.ranges;
-                       maps.finished(key, std::move(held), bytes);
+                       held.side = map.is_whole ? 0 : side;
+                       finish_map(key, std::move(held), bytes);
                    });
         };
     };
     return jobs.start("Loading " + short_name(request.file), work, when_failed(maps, key, stamp));
+}
+
+/// What shows less of the same map is not needed any more.
+void Reconciler::State::finish_map(const std::string& key, HeldMap held, std::uint64_t bytes) {
+    std::vector<std::string> coarser;
+    maps.visit([&](const std::string& each, const HeldMap& other) {
+        const bool less = held.side == 0 || (other.side > 0 && other.side < held.side);
+        if (less && each != key && map_of_key(each) == map_of_key(key)) coarser.push_back(each);
+    });
+    maps.finished(key, std::move(held), bytes);
+    for (const std::string& each : coarser) maps.forget(each);
 }
 
 Jobs::Id Reconciler::State::start_mesh(const std::string& key) {
@@ -259,6 +311,7 @@ Jobs::Id Reconciler::State::start_mesh(const std::string& key) {
     struct Ready {
         std::shared_ptr<const Mesh> mesh;
         std::vector<std::string> notes;
+        float uv_stretch = 0.0f;
     };
     const auto stamp = std::make_shared<FileStamp>();
     const auto work = [this, key, id, bare, stamp](JobContext& job) -> Jobs::Done {
@@ -268,11 +321,13 @@ Jobs::Id Reconciler::State::start_mesh(const std::string& key) {
         if (!bare) ready->notes = mesh->notes;
         if (wants_tangents(key) && !mesh->has_tangents) make_tangents(*mesh);
         auto prepared = std::make_shared<const PreparedMesh>(prepare_mesh(*mesh));
+        ready->uv_stretch = uv_stretch(*mesh);
         ready->mesh = std::move(mesh);
         return [this, key, ready, stamp, prepared] {
             files_read.emplace_back(id_of(key), *stamp);
             expect(meshes, key, ready, prepared, [this, key](const Ready& loaded, MeshHandle handle) {
-                HeldMesh held{.handle = std::move(handle), .mesh = loaded.mesh};
+                HeldMesh held{
+                    .handle = std::move(handle), .mesh = loaded.mesh, .uv_stretch = loaded.uv_stretch};
                 held.info = {.title = mesh_title(registry, id_of(key)),
                              .triangles = loaded.mesh->indices.size() / 3,
                              .vertices = loaded.mesh->vertices.size(),
@@ -338,23 +393,18 @@ void Reconciler::State::take_light(const std::string& key, const ReadyLight& lig
     for (const std::string& each : less) environments.forget(each);
 }
 
-void Reconciler::State::start_missing(const Document& document) {
+void Reconciler::State::start_missing() {
     const auto stop = [this](Jobs::Id id) { jobs.stop(id); };
     counts.environments_from_memory +=
         environments.update([this](const std::string& key) { return start_environment(key); }, stop);
     counts.meshes_from_memory +=
         meshes.update([this](const std::string& key) { return start_mesh(key); }, stop);
-    counts.maps_from_memory += maps.update(
-        [&](const std::string& key) {
-            int slot = 0;
-            while (maps.slot(slot).keys.wanted != key) ++slot;
-            return start_map(key, map_request(document.material, MapSlot(slot)));
-        },
-        stop);
+    counts.maps_from_memory +=
+        maps.update([this](const std::string& key) { return start_map(key, map_requests.at(key)); }, stop);
 }
 
 bool Reconciler::State::slot_ready(const Document& document, int slot) const {
-    if (!maps.slot(slot).keys.ready()) return false;
+    if (!maps.slot(slot).keys.ready() && !has_map(slot)) return false;
     // A normal map is shaded along tangents: it waits for a mesh that has them.
     const bool needs_tangents = MapSlot(slot) == MapSlot::Normal && !document.material.normal.map.empty();
     return !needs_tangents || meshes.slot(0).keys.ready() || wants_tangents(meshes.slot(0).keys.shown);
@@ -370,9 +420,16 @@ bool Reconciler::State::light_ready() const {
 MapHandle Reconciler::State::handle_for(const Document& document, int slot) const {
     const auto& [keys, value, error] = maps.slot(slot);
     if (keys.wanted.empty()) return {};
-    if (keys.wanted == keys.shown && value) return value->handle;
+    if (has_map(slot)) return value->handle;
     const bool same_file = value && id_of(keys.shown) == *map_of(document.material, MapSlot(slot)).map;
     return same_file ? value->handle : placeholder;
+}
+
+/// Of the handle above.
+std::optional<ChannelRanges> Reconciler::State::ranges_of(int slot) const {
+    const auto& [keys, value, error] = maps.slot(slot);
+    if (!handles[slot]) return std::nullopt;
+    return value && value->handle == handles[slot] ? value->ranges : ChannelRanges{};
 }
 
 void Reconciler::State::present(const Document& document, std::uint64_t opened_now) {
@@ -382,10 +439,12 @@ void Reconciler::State::present(const Document& document, std::uint64_t opened_n
     if (!all && presented && opened_now != opened) return;  // another document: all of it or nothing
     Material next = document.material;
     for (int i = 0; i < kMapSlots; ++i) {
-        if (ready[i])
+        if (ready[i]) {
             handles[i] = handle_for(document, i);
-        else
+            ranges[i] = ranges_of(i);
+        } else {
             copy_slot(material, next, MapSlot(i));
+        }
     }
     material = std::move(next);
     presented = true;
@@ -400,7 +459,7 @@ void Reconciler::State::report(const Document& document) {
             status[i] = {};
             continue;
         }
-        const bool loaded = keys.wanted == keys.shown && value.has_value();
+        const bool loaded = has_map(i);
         if (loaded) next = value->status;
         next.full_path = *map_of(document.material, MapSlot(i)).map;
         if (loaded) {
@@ -441,10 +500,11 @@ Reconciler::Reconciler(Renderer& renderer, const Registry& registry, Jobs& jobs,
 
 Reconciler::~Reconciler() = default;
 
-bool Reconciler::update(const Document& document, std::uint64_t opened) {
+bool Reconciler::update(const Document& document, std::uint64_t opened, const Sight& sight) {
+    state_->sight = sight;
     const bool more = state_->run_uploads();
     state_->want(document);
-    state_->start_missing(document);
+    state_->start_missing();
     state_->present(document, opened);
     state_->report(document);
     return more;
@@ -452,9 +512,30 @@ bool Reconciler::update(const Document& document, std::uint64_t opened) {
 
 Scene Reconciler::scene(const Camera& camera, const View& view) const {
     Scene scene{.maps = state_->handles, .material = state_->material, .camera = camera, .view = view};
+    if (state_->options.skip) {
+        const Collapsed simpler = collapsed(state_->material, state_->ranges);
+        scene.material = simpler.material;
+        for (int i = 0; i < kMapSlots; ++i)
+            if (simpler.slots[i]) scene.maps[i] = nullptr;
+    }
     if (const auto& light = state_->environments.slot(0).value) scene.environment = light->handle;
     if (const auto& mesh = state_->meshes.slot(0).value) scene.mesh = mesh->handle;
     return scene;
+}
+
+Scene Reconciler::detailed_scene(const Camera& camera, const View& view, int height_px) const {
+    Scene detailed = scene(camera, view);
+    const Material& material = state_->material;
+    const int side = state_->visible_side(material, {camera, height_px});
+    for (int i = 0; i < kMapSlots; ++i) {
+        const auto& held = state_->maps.slot(i).value;
+        const bool coarse = held && held->side > 0 && (side == 0 || held->side < side);
+        if (!coarse || detailed.maps[i] != held->handle) continue;
+        MapRequest request = map_request(material, MapSlot(i));
+        request.finest_side = side;
+        detailed.maps[i] = Renderer::begin_upload(load_map(state_->registry, request).levels).finish();
+    }
+    return detailed;
 }
 
 bool Reconciler::drawable() const {

@@ -9,6 +9,7 @@
 #include "app/registry.h"
 #include "app/watch.h"
 #include "renderer/ibl/cache.h"
+#include "renderer/map_detail.h"
 #include "renderer/renderer.h"
 #include "ui/panel_context.h"
 
@@ -51,10 +52,13 @@ public:
     /// Compares and starts; also does a share of the waiting uploads. opened counts documents opened: while
     /// another one's maps load, the whole old picture stays. True if there is more to upload: call again
     /// soon.
-    bool update(const Document& document, std::uint64_t opened);
+    /// sight: how large the picture is seen, which the detail of maps follows.
+    bool update(const Document& document, std::uint64_t opened, const Sight& sight = {});
 
     /// The last complete picture. Without light and mesh yet (the very first moments) nothing can be drawn.
     Scene scene(const Camera& camera, const View& view) const;
+    /// The same to be drawn larger: maps that are not fine enough for that are read again at once.
+    Scene detailed_scene(const Camera& camera, const View& view, int height_px) const;
     bool drawable() const;
     bool pending() const;  ///< something wanted is not shown yet and has not failed
 
