@@ -48,6 +48,7 @@ std::vector<FrameCase> frame_cases(SceneLoader& loader, const std::string& envir
     };
     options.view.background = Background::Plain;
     options.view.shading = Shading::SplitSum;
+    options.size_px = {};  // drawn in several sizes: maps with all detail
     add("split-sum", "-");
     for (const auto& mode : kShadings) {
         if (mode.value == Shading::SplitSum || mode.value == Shading::Reference) continue;

@@ -82,8 +82,8 @@ struct Reconciler::State {
         return id + kVersionMark + std::to_string(found == versions.end() ? 0 : found->second);
     }
     void want(const Document& document);
-    std::string want_map(MapRequest request, const Material& material);
-    int visible_side(const Material& material, const Sight& seen) const;
+    std::string want_map(MapRequest request, const Material& wanted);
+    int visible_side(const Material& wanted, const Sight& seen) const;
     bool has_map(int slot) const;
     std::optional<NeededLight> needed_by(const Document& document) const;
     std::string light_key(const std::string& environment, const std::optional<NeededLight>& needed);
@@ -141,15 +141,15 @@ void Reconciler::State::want(const Document& document) {
 }
 
 /// Of a material's maps on the mesh that is shown.
-int Reconciler::State::visible_side(const Material& material, const Sight& seen) const {
+int Reconciler::State::visible_side(const Material& wanted, const Sight& seen) const {
     const auto& mesh = meshes.slot(0).value;
-    return visible_map_side(mesh ? mesh->uv_stretch : kUsualUvStretch, material.uv.scale,
+    return visible_map_side(mesh ? mesh->uv_stretch : kUsualUvStretch, wanted.uv.scale,
                             options.skip ? seen : Sight{});
 }
 
 /// The key of what is there if it is fine enough.
-std::string Reconciler::State::want_map(MapRequest request, const Material& material) {
-    request.finest_side = visible_side(material, sight);
+std::string Reconciler::State::want_map(MapRequest request, const Material& wanted) {
+    request.finest_side = visible_side(wanted, sight);
     const std::string map = map_key(versioned(request.file), request);
     std::string at_hand;
     maps.visit([&](const std::string& key, const HeldMap& held) {
@@ -171,14 +171,14 @@ bool Reconciler::State::has_map(int slot) const {
 /// Not known before the maps are there that tell it.
 std::optional<NeededLight> Reconciler::State::needed_by(const Document& document) const {
     if (!options.skip) return all_light();
-    MapRanges ranges;
+    MapRanges known;
     for (const MapSlot slot : {MapSlot::Roughness, MapSlot::Metallic, MapSlot::Normal}) {
         const auto& [keys, value, error] = maps.slot(std::size_t(slot));
         if (keys.wanted.empty()) continue;
         if (!keys.ready() && !has_map(int(slot))) return std::nullopt;
-        ranges[std::size_t(slot)] = has_map(int(slot)) ? value->ranges : ChannelRanges{};
+        known[std::size_t(slot)] = has_map(int(slot)) ? value->ranges : ChannelRanges{};
     }
-    return needed_light(document.material, ranges, document.view);
+    return needed_light(document.material, known, document.view);
 }
 
 std::string Reconciler::State::light_key(const std::string& environment,

@@ -66,6 +66,33 @@ TEST(Render, exr_holds_linear_radiance_that_exposure_scales) {
         for (int x = 0; x < 32; ++x) EXPECT_NEAR(texel(bright, x, y, 1), 8.0f * texel(dark, x, y, 1), 8e-3f);
 }
 
+TEST(Render, leaves_out_only_what_the_picture_does_not_show) {
+    const Workspace work;
+    Image picture = make_image(256, 256, 3, PixelType::U8);
+    for (int y = 0; y < 256; ++y)
+        for (int x = 0; x < 256; ++x) {
+            set_texel(picture, x, y, 0, 0.8f);  // occlusion: one number
+            set_texel(picture, x, y, 1, 0.3f + 0.2f * std::sin(0.1f * float(x)) * std::cos(0.07f * float(y)));
+            set_texel(picture, x, y, 2, x > 128 ? 1.0f : 0.0f);
+        }
+    save_image(work.path("orm.png"), picture, {});
+    work.write("m.json", R"({"name": "Mapped", "albedo": {"value": [0.7, 0.5, 0.3]},
+        "ao": {"value": 1, "map": "orm.png", "channel": "r"},
+        "roughness": {"value": 1, "map": "orm.png", "channel": "g"},
+        "metallic": {"value": 1, "map": "orm.png", "channel": "b"}})");
+    for (const char* flag : {"--tonemap=neutral", "--no-skip"})
+        ASSERT_EQ(work.run({"render", "m.json", "-o", work.path(std::string(flag) + ".png"), "--size",
+                            "48x48", "--env", "furnace", flag})
+                      .exit_status,
+                  0);
+    const Image few = load_image(work.path("--tonemap=neutral.png")).image;
+    const Image all = load_image(work.path("--no-skip.png")).image;
+    for (int y = 0; y < 48; ++y)
+        for (int x = 0; x < 48; ++x)
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(texel(few, x, y, c), texel(all, x, y, c), 4.0f / 255.0f) << x << " " << y;
+}
+
 TEST(Render, the_same_command_twice_gives_the_same_bytes) {
     const Workspace work;
     for (const char* extension : {"png", "exr"}) {
