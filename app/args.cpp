@@ -114,6 +114,8 @@ void add_scene(CLI::App& app, SceneOptions& scene) {
     add_size(app, "--size", scene.size_px, "Size of a picture in pixels (default 512x512)");
     add_camera(app, scene.camera);
     add_named(app, "--shading", kShadings, scene.view.shading, "How light is computed");
+    add_named(app, "--quality", kQualities, scene.view.quality,
+              "How closely fitted shading follows the integral");
     add_named(app, "--tonemap", kTonemaps, scene.view.tonemap, "How radiance becomes a picture (PNG only)");
     add_named(app, "--background", kBackgrounds, scene.view.background, "What is seen behind the object");
     add_named(app, "--debug-view", kDebugViews, scene.view.debug,

@@ -62,14 +62,20 @@ std::vector<FrameCase> frame_cases(SceneLoader& loader, const std::string& envir
         cases.push_back({name, std::move(scene)});
     };
     options.view.background = Background::Plain;
+    options.view.shading = Shading::SplitSum;
     add("split-sum", "-");
     for (const auto& mode : kShadings) {
         if (mode.value == Shading::SplitSum || mode.value == Shading::Reference) continue;
         options.view.shading = mode.value;
         add(std::string(mode.id), "-");
     }
-    options.view.shading = Shading::SplitSum;
+    options.view.shading = Shading::Fitted;
+    options.view.quality = Quality::High;
+    add("fitted, high quality", "-");
+    options.view.quality = Quality::Standard;
     options.overrides = {{"roughness", "0.02"}};
+    add("fitted, near mirror", "-");
+    options.view.shading = Shading::SplitSum;
     add("split-sum, near mirror", "-");
     options.overrides.clear();
     for (const fs::path& preset : shipped_presets())
@@ -134,10 +140,12 @@ Json bench_light(const BenchContext& context) {
     for (const std::string& id : context.environments) {
         const Environment environment = load_environment(context.registry, id);
         const BakeControl control{.parallel_for = jobs.parallel_for()};
-        const std::string key = bake_key(environment, BakeSettings{});
+        const std::string key = bake_key(environment, drawing_bake_settings());
         const std::vector<double> ms = interleaved_medians_ms(
             {[&] { load_environment(context.registry, id); },
-             [&] { save_baked(cache, key, *bake_environment(environment, BakeSettings{}, control)); },
+             [&] {
+                 save_baked(cache, key, *bake_environment(environment, drawing_bake_settings(), control));
+             },
              [&] { load_baked(cache, key); }},
             context.repetitions());
         std::printf("%-36s %10.1f %10.1f %10.1f\n", utf8_from_path(path_from_utf8(id).filename()).c_str(),

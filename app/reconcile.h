@@ -24,7 +24,7 @@ namespace patina {
 
 struct ReconcileOptions {
     BakeCache bakes;
-    BakeSettings bake_settings;  ///< but for the levels, which the pictures choose
+    BakeSettings bake_settings = drawing_bake_settings();  ///< but for the levels, which the pictures choose
     bool skip = true;            ///< false: prepares what any picture could need, for comparison
     std::uint64_t map_bytes = std::uint64_t{1} << 30;  ///< kept on the GPU for switching back
     std::uint64_t mesh_bytes = std::uint64_t{512} << 20;

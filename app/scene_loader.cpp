@@ -68,7 +68,7 @@ EnvironmentHandle SceneLoader::environment(const std::string& id, const NeededLi
         .stop = {}};
     const LightOrder order{.id = id, .needed = wanted, .held = light.held, .drawn = light.handle};
     const std::optional<ReadyLight> ready =
-        get_light(registry_, order, BakeSettings{}, options_.cache, control);
+        get_light(registry_, order, drawing_bake_settings(), options_.cache, control);
     if (!ready) throw std::runtime_error(id + ": the bake was stopped");
     for (const std::string& note : ready->notes) options_.note(id + ": " + note);
     light.held = ready->held;

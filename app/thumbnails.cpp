@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kVersion = 1;  ///< of how thumbnails look
+constexpr int kVersion = 2;  ///< of how thumbnails look
 constexpr int kSidePx = 192;
 constexpr int kMapPx = 256;
 constexpr const char* kLight = "studio";

@@ -18,8 +18,10 @@ constexpr std::pair<Feature, const char*> kDefines[] = {
 
     {Feature::Course, "HAS_COURSE"},
     {Feature::Debug, "HAS_DEBUG"},
+    {Feature::Fitted, "HAS_FITTED"},
+    {Feature::TwoTaps, "HAS_TWO_TAPS"},
 };
-constexpr Features kAll = (1u << 10) - 1;
+constexpr Features kAll = (1u << 12) - 1;
 
 /// With all that they imply. Debug views are looked at one at a time and may share what costs nothing but
 /// time; which numbers a roughness map holds is not known here.
@@ -27,6 +29,8 @@ Features completed(Features features) {
     if (has(features, Feature::Debug)) features |= Features(Feature::Sharp) | Features(Feature::Emission);
     if (has(features, Feature::RoughnessMap)) features |= Features(Feature::Sharp);
     if (has(features, Feature::EmissionMap)) features |= Features(Feature::Emission);
+    if (has(features, Feature::Course)) features &= ~(Features(Feature::Fitted) | Features(Feature::TwoTaps));
+    if (!has(features, Feature::Fitted)) features &= ~Features(Feature::TwoTaps);
     return features;
 }
 
@@ -49,6 +53,8 @@ Features features_of(const Material& material, const std::bitset<kMapSlots>& bou
     add(emits, Feature::Emission);
     add(material.roughness.value < sharpest_roughness, Feature::Sharp);
     add(view.shading == Shading::Course, Feature::Course);
+    add(view.shading == Shading::Fitted, Feature::Fitted);
+    add(view.shading == Shading::Fitted && view.quality == Quality::High, Feature::TwoTaps);
     add(view.debug != DebugView::Final, Feature::Debug);
     return completed(features);
 }

@@ -3,6 +3,7 @@
 #include "renderer/features.h"
 #include "renderer/gl/brdf_table.h"
 #include "renderer/ibl/bake.h"
+#include "renderer/lobes/lobe_table.h"
 #include "renderer/uniforms.h"
 
 #include <algorithm>
@@ -39,7 +40,11 @@ float single_scattering_limit() {
 }
 
 /// Levels that lobes of these roughnesses look up, before clamping to those there are.
-ValueRange looked_up(const View&, ValueRange roughness) { return roughness; }
+ValueRange looked_up(const View& view, ValueRange roughness) {
+    if (view.shading != Shading::Fitted) return roughness;
+    const LobeReach reach = lobe_reach(roughness.low, roughness.high, view.quality == Quality::High);
+    return {roughness.low * reach.sharpest, roughness.high * reach.widest};
+}
 
 /// What the surface's roughness becomes: normals that a pixel averages widen it. Their spread is 1 − alpha of
 /// the normal map, squared, and adds to roughness⁴.
@@ -57,6 +62,7 @@ bool is_black(const ColorSlot& albedo) { return albedo.value == glm::vec3(0.0f);
 
 bool needs_irradiance(const Material& material, ValueRange metallic, ValueRange roughness, const View& view) {
     const bool diffuse = metallic.low < 1.0f && !is_black(material.albedo);
+    if (view.shading == Shading::Fitted && view.debug != DebugView::Diffuse) return true;
     const bool multiple = view.shading != Shading::Course && roughness.high > single_scattering_limit();
     return (diffuse && view.debug != DebugView::Specular) || (multiple && view.debug != DebugView::Diffuse);
 }

@@ -8,6 +8,7 @@
 #include "renderer/gl/reference.h"
 #include "renderer/gl/target.h"
 #include "renderer/gl/texture.h"
+#include "renderer/lobes/lobe_table.h"
 #include "renderer/tonemap.h"
 #include "renderer/uniforms.h"
 
@@ -45,6 +46,33 @@ gl::Texture make_brdf_texture() {
     return texture;
 }
 
+/// Slices: one tap F0 = 1, one tap F0 = 0.04, two taps likewise, the two taps' weights likewise.
+gl::Texture make_lobe_texture() {
+    constexpr int size = kLobeTableSize;
+    std::vector<glm::vec4> texels(std::size_t(6) * size * size);
+    for (int i = 0; i < size * size; ++i) {
+        for (int metal = 0; metal < 2; ++metal) {
+            const LobeNode& node = lobe_nodes()[i].by_reflectance[metal];
+            const auto put = [&](int slice, glm::vec4 texel) {
+                texels[std::size_t(slice + metal) * size * size + i] = texel;
+            };
+            put(0, {node.one.kappa, node.one.log2_ratio, node.one_irradiance, 0.0f});
+            put(2, {node.two[0].kappa, node.two[0].log2_ratio, node.two[1].kappa, node.two[1].log2_ratio});
+            put(4, {node.second_weight, node.two_irradiance, 0.0f, 0.0f});
+        }
+    }
+    const gl::KeepTextureBindings keep;
+    gl::Texture texture = gl::Texture::make();
+    glBindTexture(GL_TEXTURE_3D, texture.name());
+    glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA32F, size, size, 6, 0, GL_RGBA, GL_FLOAT, texels.data());
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+        glTexParameteri(GL_TEXTURE_3D, axis, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAX_LEVEL, 0);
+    return texture;
+}
+
 /// No light at all, for scenes that have none yet.
 EnvironmentHandle make_darkness() {
     const CubeMap black{1, std::vector<glm::vec3>(6, glm::vec3(0.0f))};
@@ -67,7 +95,8 @@ LightLayout layout_of(const GpuEnvironment& environment) {
             environment.layers,
             environment.roughness,
             environment.sharpest,
-            environment.lights};
+            environment.lights,
+            environment.panorama_lights};
 }
 
 Features features_for(const Scene& scene, const GpuEnvironment& environment) {
@@ -112,6 +141,7 @@ struct Renderer::State {
     gl::Buffer frame_rows = gl::Buffer::make();
     gl::Buffer material_rows = gl::Buffer::make();
     gl::Texture brdf = make_brdf_texture();
+    gl::Texture lobes = make_lobe_texture();
     EnvironmentHandle darkness = make_darkness();
 
     const gl::Program& surface(Features features);
@@ -176,6 +206,7 @@ void Renderer::State::bind_light(const GpuEnvironment& environment) const {
     bind_texture(gl::kLevelsUnit, GL_TEXTURE_CUBE_MAP_ARRAY, environment.levels);
     bind_texture(gl::kIrradianceUnit, GL_TEXTURE_CUBE_MAP, environment.irradiance);
     bind_texture(gl::kBrdfUnit, GL_TEXTURE_2D, brdf);
+    bind_texture(gl::kLobesUnit, GL_TEXTURE_3D, lobes);
 }
 
 void Renderer::State::bind_maps(const Scene& scene) const {

@@ -61,6 +61,13 @@ struct Upload {
     std::function<std::shared_ptr<const T>()> finish;  ///< copies what is left and hands it over; call once
 };
 
+/// What upload_environment is given for pictures: the standard levels, compact lights apart.
+inline BakeSettings drawing_bake_settings() {
+    BakeSettings settings;
+    settings.extract_lights = true;
+    return settings;
+}
+
 class Renderer {
 public:
     /// Throws std::runtime_error when the context is older than 4.1 or a shader does not compile.

@@ -26,7 +26,8 @@ struct LightLayout {
     int layers = 1;
     std::vector<float> roughness;  ///< of the levels, ascending, at most blocks::kMaxLevels
     float sharpest = 1.0f;         ///< lobes sharper than this are made up from the panorama
-    std::vector<ExtractedLight> lights;
+    std::vector<ExtractedLight> lights;           ///< shaded as lights
+    std::vector<ExtractedLight> panorama_lights;  ///< kept apart by the panorama
 };
 
 blocks::FrameBlock make_frame_block(const Camera& camera, const View& view, glm::ivec2 size_px,
