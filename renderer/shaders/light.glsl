@@ -67,18 +67,19 @@ vec3 prefiltered_light(vec3 d, float log2_roughness) {
 const int kCoreSamples = 16;
 const vec2 kGoldenTurn = vec2(-0.7373688, 0.6754903);   // cos and sin of the golden angle
 
-// The compact core that a lobe sharper than the sharpest level has beyond that level's tails (core_tangent2): half vectors
+// The compact core that a sharp lobe (alphas.x) has beyond the tails of a wider one (alphas.y, core_tangent2): half vectors
 // sampled around N by its distribution, their reflections weighted by what the reflection model has beside D, so that the
 // lobe is as narrow across the plane of incidence as the true one. Each sample is the panorama averaged over the solid
 // angle it stands for (Krivánek & Colbert 2008) and the pixel's. N = V = R gives the lobe of the prefiltered levels.
 // Without any lobe that sharp among the pixels shaded together the loop is not entered; software renderers execute both
 // sides of an `if`, so a loop of no turns is what spares them the work.
-vec3 core_light(vec3 N, vec3 V, float alpha, float f0, vec4 lights_and_pixel) {
+vec3 core_light(vec3 N, vec3 V, vec2 alphas, float f0, vec4 lights_and_pixel) {
+    float alpha = alphas.x;
     // Below roughness 0.01 the lobe is narrower than any panorama's texel: its middle says it all.
-    int count = alpha < 1e-4 ? 1 : alpha < level_layout.w ? kCoreSamples : 0;
+    int count = alpha < 1e-4 ? 1 : alpha < alphas.y ? kCoreSamples : 0;
     float middle = count == 1 ? 0.0 : 0.5;
     float alpha2 = max(alpha * alpha, 1e-14);
-    float alpha1_2 = level_layout.w * level_layout.w;
+    float alpha1_2 = square(alphas.y);
     // Azimuths count from the panorama's own east, so that the pattern turns smoothly everywhere but at its poles.
     float r = length(N.xz);
     vec3 east = r > 1e-6 ? vec3(-N.z, 0.0, N.x) / r : vec3(1.0, 0.0, 0.0);

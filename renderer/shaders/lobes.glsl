@@ -25,7 +25,7 @@ vec4 lobe_slice(LobePoint p, float first) {
 }
 #endif
 
-// Of a lobe no sharper than the sharpest level.
+// Of a lobe no sharper than the sharpest level; a sharper one is taken for that.
 vec3 wide_lobe_light(LobePoint p) {
     float log2_roughness = log2(max(p.roughness, level_layout.z));
 #ifdef HAS_FITTED
@@ -48,21 +48,35 @@ vec3 wide_lobe_light(LobePoint p) {
 }
 
 #ifdef HAS_SHARP
+// The lobe whose tails stand for those of a lobe sharper than the sharpest level: wider than that level, because the fit is
+// best there and the core then holds more of the light; one with it where the levels begin.
+float tail_roughness(float roughness) {
+#ifdef HAS_FITTED
+    return min(max(2.0 * level_layout.z - roughness, roughness), 1.0);
+#else
+    return max(roughness, level_layout.z);
+#endif
+}
+
 // A lobe that is wide as panorama texels sees extracted lights as lights: sampled there they would flicker. A mirror sees
 // them in the panorama, as the picture they are.
 float analytic_share(float alpha) { return counts.x > 0.0 ? smoothstep(0.0009, 0.0036, alpha) : 0.0; }
 #endif
 
 vec3 lobe_light(LobePoint p) {
-    vec3 light = wide_lobe_light(p);
 #ifdef HAS_SHARP
     float alpha = square(p.roughness);
-    float tails = min(square(alpha / level_layout.w), 1.0);
+    p.roughness = tail_roughness(p.roughness);
+    float alpha1 = square(p.roughness);
+    float tails = min(square(alpha / alpha1), 1.0);
+#endif
+    vec3 light = wide_lobe_light(p);
+#ifdef HAS_SHARP
     vec4 lights_and_pixel = vec4((1.0 - analytic_share(alpha)) * light_color(p.R), p.pixel);
 #ifdef HAS_FITTED
-    vec3 core = core_light(p.N, p.V, alpha, p.f0, lights_and_pixel);
+    vec3 core = core_light(p.N, p.V, vec2(alpha, alpha1), p.f0, lights_and_pixel);
 #else
-    vec3 core = core_light(p.R, p.R, alpha, p.f0, lights_and_pixel);
+    vec3 core = core_light(p.R, p.R, vec2(alpha, alpha1), p.f0, lights_and_pixel);
 #endif
     light = tails * light + (1.0 - tails) * core;
 #endif

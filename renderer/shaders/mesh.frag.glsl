@@ -23,9 +23,9 @@ vec3 light_lobe(vec3 F0, float alpha, float spread, float sin2, vec3 cosines) {
     vec3 whole = light_specular(F0, sin2, cosines, vec2(alpha2 + spread, alpha2));
 #ifdef HAS_SHARP
     // What is not seen as a light is seen in the panorama (lobe_light), but for the tails.
-    float sharpest2 = square(level_layout.w);
-    float share = min(alpha2 / sharpest2, 1.0);
-    vec3 tails = light_specular(F0, sin2, cosines, vec2(max(alpha2, sharpest2) + spread, alpha2));
+    float tails2 = square(square(tail_roughness(sqrt(alpha))));
+    vec3 tails = light_specular(F0, sin2, cosines, vec2(tails2 + spread, alpha2));
+    float share = min(alpha2 / tails2, 1.0);
     whole = mix(share * tails, whole, analytic_share(alpha));
 #endif
     return whole;
