@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace patina::lobes {
@@ -117,20 +118,22 @@ float background(int kind, vec3 d, float detail) {
 
 }  // namespace
 
-Environment make_fit_environment(int kind, int width) {
-    Random random(1000 + 77 * std::uint64_t(kind));
+Environment make_fit_environment(int number, int width) {
+    Random random(1000 + 77 * std::uint64_t(number));
+    const int kind = number % 6;
+    const float ambient = number < 6 ? 1.0f : 2.5f;  // the later ones are brighter between their lamps
     const std::vector<Box> boxes = make_boxes(kind, random);
     float phase[21];
     for (float& p : phase) p = 6.28f * random();
     Environment environment;
     environment.width = width;
     environment.height = width / 2;
-    environment.id = environment.title = "fit-" + std::to_string(kind);
+    environment.id = environment.title = "fit-" + std::to_string(number);
     for (int y = 0; y < environment.height; ++y) {
         for (int x = 0; x < width; ++x) {
             const vec3 d = equirect_to_direction(
                 {(float(x) + 0.5f) / float(width), (float(y) + 0.5f) / float(environment.height)});
-            float radiance = background(kind, d, std::exp(2.0f * texture(d, phase)));
+            float radiance = ambient * background(kind, d, std::exp(2.0f * texture(d, phase)));
             for (const Box& box : boxes) radiance += box.light(d);
             environment.radiance.emplace_back(radiance);
         }

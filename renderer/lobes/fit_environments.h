@@ -6,9 +6,9 @@
 
 namespace patina::lobes {
 
-inline constexpr int kFitEnvironments = 6;
+inline constexpr int kFitEnvironments = 13;
 
-/// kind 0 … kFitEnvironments − 1.
-Environment make_fit_environment(int kind, int width);
+/// number 0 … kFitEnvironments − 1.
+Environment make_fit_environment(int number, int width);
 
 }  // namespace patina::lobes

@@ -17,7 +17,10 @@ constexpr int kMost = 12;  ///< parameters of a node: two reflectances, six each
 /// Reflectances fitted at once, and how much each counts. The middle one keeps the mixture by φ honest.
 constexpr double kReflectance[] = {1.0, 0.04, 0.2};
 constexpr double kCounts[] = {0.4, 0.35, 0.25};
-constexpr float kDarkest = 1e-3f;  ///< of the mean radiance: no relative error is taken to less
+/// Of the mean radiance: no relative error is taken to less. A smaller one lets a few nearly black
+/// reflections, where light too much is a hundredfold error and light too little at most all of it, narrow
+/// every lobe.
+constexpr float kDarkest = 5e-2f;
 
 double node_cosine(int i) { return std::max(1e-3, double(i * i) / ((kN - 1) * (kN - 1))); }
 double node_roughness(int j) { return brdf::kSharpestFitted + (1.0 - brdf::kSharpestFitted) * j / (kN - 1); }
