@@ -1,5 +1,7 @@
 #include "renderer/features.h"
 
+#include "renderer/brdf.h"
+
 #include <utility>
 
 namespace patina {
@@ -51,7 +53,8 @@ Features features_of(const Material& material, const std::bitset<kMapSlots>& bou
     add(is_bound(MapSlot::Normal) && material.normal.value != 0.0f, Feature::NormalMap);
     add(is_bound(MapSlot::Emission) && emits, Feature::EmissionMap);
     add(emits, Feature::Emission);
-    add(material.roughness.value < sharpest_roughness, Feature::Sharp);
+    const float reach = view.shading == Shading::Fitted ? brdf::kCoreReach : 1.0f;
+    add(material.roughness.value < reach * sharpest_roughness, Feature::Sharp);
     add(view.shading == Shading::Course, Feature::Course);
     add(view.shading == Shading::Fitted, Feature::Fitted);
     add(view.shading == Shading::Fitted && view.quality == Quality::High, Feature::TwoTaps);

@@ -22,7 +22,7 @@ enum class Feature : Features {
     NormalMap = 1u << 4,
     EmissionMap = 1u << 5,  ///< implies Emission
     Emission = 1u << 6,
-    Sharp = 1u << 7,    ///< roughness may be below the sharpest prefiltered level; a roughness map implies it
+    Sharp = 1u << 7,   ///< roughness may be too low for the levels alone; a roughness map implies it
     Course = 1u << 8,   ///< the lecture's formulas
     Debug = 1u << 9,    ///< one ingredient instead of the picture; implies Sharp and Emission
     Fitted = 1u << 10,  ///< fitted lobes; excludes Course

@@ -1,5 +1,6 @@
 #include "renderer/needed_light.h"
 
+#include "renderer/brdf.h"
 #include "renderer/features.h"
 #include "renderer/gl/brdf_table.h"
 #include "renderer/ibl/bake.h"
@@ -41,9 +42,16 @@ float single_scattering_limit() {
 
 /// Levels that lobes of these roughnesses look up, before clamping to those there are.
 ValueRange looked_up(const View& view, ValueRange roughness) {
-    if (view.shading != Shading::Fitted) return roughness;
-    const LobeReach reach = lobe_reach(roughness.low, roughness.high, view.quality == Quality::High);
-    return {roughness.low * reach.sharpest, roughness.high * reach.widest};
+    if (view.shading != Shading::Fitted)
+        return {std::max(roughness.low, kSharpestLevel), std::max(roughness.high, kSharpestLevel)};
+    // Falls to kCoreReach · kSharpestLevel and rises again.
+    const float from = brdf::tail_roughness(roughness.low, kSharpestLevel);
+    const float to = brdf::tail_roughness(roughness.high, kSharpestLevel);
+    const float turn = brdf::kCoreReach * kSharpestLevel;
+    const float low = roughness.low < turn && roughness.high > turn ? turn : std::min(from, to);
+    const float high = std::max(from, to);
+    const LobeReach reach = lobe_reach(low, high, view.quality == Quality::High);
+    return {low * reach.sharpest, high * reach.widest};
 }
 
 /// What the surface's roughness becomes: normals that a pixel averages widen it. Their spread is 1 − alpha of
@@ -107,9 +115,7 @@ NeededLight needed_light(const Material& material, const MapRanges& maps, const 
         widened(scalar_range(material.roughness, maps[std::size_t(MapSlot::Roughness)]), material, maps);
     needed.irradiance = needs_irradiance(material, metallic, roughness, view);
     if (roughness.high <= kMirrorRoughness || view.debug == DebugView::Diffuse) return needed;
-    const ValueRange lobes = {std::max(roughness.low, kSharpestLevel),
-                              std::max(roughness.high, kSharpestLevel)};
-    const ValueRange levels = looked_up(view, lobes);
+    const ValueRange levels = looked_up(view, roughness);
     needed.roughness.push_back(
         {std::clamp(levels.low, kSharpestLevel, 1.0f), std::clamp(levels.high, kSharpestLevel, 1.0f)});
     return needed;

@@ -20,7 +20,7 @@ constexpr double kCounts[] = {0.4, 0.35, 0.25};
 /// Of the mean radiance: no relative error is taken to less. A smaller one lets a few nearly black
 /// reflections, where light too much is a hundredfold error and light too little at most all of it, narrow
 /// every lobe.
-constexpr float kDarkest = 5e-2f;
+constexpr float kDarkest = 0.2f;
 
 double node_cosine(int i) { return std::max(1e-3, double(i * i) / ((kN - 1) * (kN - 1))); }
 double node_roughness(int j) { return brdf::kSharpestFitted + (1.0 - brdf::kSharpestFitted) * j / (kN - 1); }

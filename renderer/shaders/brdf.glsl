@@ -161,6 +161,14 @@ PATINA_FN float core_tangent2(float q, float alpha2, float alpha1_2) {
     return 2.0f * p / (s + sqrt(s * s + 4.0f * p));
 }
 
+// The wider lobe of a fitted one's split: below this multiple of the sharpest level's roughness, where no stored level is
+// as narrow as the true lobe across the plane of incidence, the tails are those of a lobe as far above it. The fit is good
+// there, the core holds most of the light, and the two meet where sampling ends.
+const float kCoreReach = 1.3f;
+PATINA_FN float tail_roughness(float roughness, float sharpest) {
+    return min(max(2.0f * kCoreReach * sharpest - roughness, roughness), 1.0f);
+}
+
 // Density per solid angle of the reflected direction (N = V, so dω_l = 4 VoH dω_h and D·NoH/(4 VoH) = D/4) of the core,
 // normalised. D(t) = α² (1 + t)² / (π (α² + t)²).
 PATINA_FN float core_density(float t, float alpha2, float alpha1_2) {

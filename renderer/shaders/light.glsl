@@ -64,7 +64,7 @@ vec3 prefiltered_light(vec3 d, float log2_roughness) {
 
 #ifdef HAS_SHARP
 // A golden-angle spiral of equal shares of the core: q = u/(1 − u) at u = (i + ½)/n, and the azimuth.
-const int kCoreSamples = 16;
+const int kCoreSamples = 24;
 const vec2 kGoldenTurn = vec2(-0.7373688, 0.6754903);   // cos and sin of the golden angle
 
 // The compact core that a sharp lobe (alphas.x) has beyond the tails of a wider one (alphas.y, core_tangent2): half vectors

@@ -48,11 +48,10 @@ vec3 wide_lobe_light(LobePoint p) {
 }
 
 #ifdef HAS_SHARP
-// The lobe whose tails stand for those of a lobe sharper than the sharpest level: wider than that level, because the fit is
-// best there and the core then holds more of the light; one with it where the levels begin.
-float tail_roughness(float roughness) {
+// The wider lobe whose tails are those of a sharp one.
+float wider_roughness(float roughness) {
 #ifdef HAS_FITTED
-    return min(max(2.0 * level_layout.z - roughness, roughness), 1.0);
+    return tail_roughness(roughness, level_layout.z);
 #else
     return max(roughness, level_layout.z);
 #endif
@@ -66,7 +65,7 @@ float analytic_share(float alpha) { return counts.x > 0.0 ? smoothstep(0.0009, 0
 vec3 lobe_light(LobePoint p) {
 #ifdef HAS_SHARP
     float alpha = square(p.roughness);
-    p.roughness = tail_roughness(p.roughness);
+    p.roughness = wider_roughness(p.roughness);
     float alpha1 = square(p.roughness);
     float tails = min(square(alpha / alpha1), 1.0);
 #endif

@@ -23,7 +23,7 @@ vec3 light_lobe(vec3 F0, float alpha, float spread, float sin2, vec3 cosines) {
     vec3 whole = light_specular(F0, sin2, cosines, vec2(alpha2 + spread, alpha2));
 #ifdef HAS_SHARP
     // What is not seen as a light is seen in the panorama (lobe_light), but for the tails.
-    float tails2 = square(square(tail_roughness(sqrt(alpha))));
+    float tails2 = square(square(wider_roughness(sqrt(alpha))));
     vec3 tails = light_specular(F0, sin2, cosines, vec2(tails2 + spread, alpha2));
     float share = min(alpha2 / tails2, 1.0);
     whole = mix(share * tails, whole, analytic_share(alpha));

@@ -46,6 +46,12 @@ TEST(Shaders, features_are_only_what_the_material_uses) {
               Features(Feature::Fitted) | Features(Feature::TwoTaps));
     view.shading = Shading::SplitSum;
     EXPECT_EQ(features_of(material, bound, view, light), 0u);
+    material.roughness.value = 0.12f;
+    EXPECT_EQ(features_of(material, bound, view, light), 0u);
+    view = {};
+    EXPECT_EQ(features_of(material, bound, view, light),
+              Features(Feature::Fitted) | Features(Feature::Sharp));
+    view.shading = Shading::SplitSum;
     material.roughness.value = 0.05f;
     EXPECT_EQ(features_of(material, bound, view, light), Features(Feature::Sharp));
     EXPECT_EQ(features_of(material, bound, view, 0.0f), 0u);
