@@ -70,7 +70,8 @@ bool is_black(const ColorSlot& albedo) { return albedo.value == glm::vec3(0.0f);
 
 bool needs_irradiance(const Material& material, ValueRange metallic, ValueRange roughness, const View& view) {
     const bool diffuse = metallic.low < 1.0f && !is_black(material.albedo);
-    if (view.shading == Shading::Fitted && view.debug != DebugView::Diffuse) return true;
+    const bool fitted = view.shading == Shading::Fitted && roughness.high > kMirrorRoughness;
+    if (fitted && view.debug != DebugView::Diffuse) return true;
     const bool multiple = view.shading != Shading::Course && roughness.high > single_scattering_limit();
     return (diffuse && view.debug != DebugView::Specular) || (multiple && view.debug != DebugView::Diffuse);
 }
