@@ -4,6 +4,7 @@
 #include "renderer/lobes/fit_solve.h"
 #include "renderer/lobes/fit_truth.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
