@@ -3,12 +3,25 @@
 #include "renderer/gl/program.h"
 #include "renderer/gl/texture.h"
 
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
 namespace patina::gl {
 
 namespace {
+
+/// As light.glsl's light_color: of the nearest light, with a mean channel of 1.
+glm::vec3 light_color(const std::vector<ExtractedLight>& lights, glm::vec3 direction) {
+    const auto nearest = std::max_element(lights.begin(), lights.end(), [&](const auto& a, const auto& b) {
+        return glm::dot(a.direction, direction) < glm::dot(b.direction, direction);
+    });
+    const glm::vec3 E = nearest->irradiance;
+    return E * (3.0f / std::max(E.x + E.y + E.z, 1e-30f));
+}
 
 void no_filter(GLenum kind) {
     for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
@@ -181,9 +194,17 @@ PanoramaTexels read_panorama(const GpuEnvironment& environment) {
     glBindTexture(GL_TEXTURE_2D, environment.panorama->name());
     glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &texels.width);
     glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &texels.height);
-    texels.radiance.resize(std::size_t(texels.width) * texels.height);
-    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGB, GL_FLOAT, texels.radiance.data());
-    for (glm::vec3& texel : texels.radiance) texel *= environment.panorama_scale;
+    std::vector<glm::vec4> stored(std::size_t(texels.width) * texels.height);
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, stored.data());
+    for (std::size_t i = 0; i < stored.size(); ++i) {
+        glm::vec3 radiance(stored[i]);
+        if (stored[i].a > 0.0f && !environment.panorama_lights.empty()) {
+            const glm::vec2 uv((float(i % texels.width) + 0.5f) / float(texels.width),
+                               (float(i / texels.width) + 0.5f) / float(texels.height));
+            radiance += stored[i].a * light_color(environment.panorama_lights, equirect_to_direction(uv));
+        }
+        texels.radiance.push_back(radiance * environment.panorama_scale);
+    }
     return texels;
 }
 

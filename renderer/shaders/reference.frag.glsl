@@ -83,7 +83,9 @@ mat3 frame_around(vec3 N) {
 vec3 panorama_texel(vec3 d) {
     ivec2 size = textureSize(panorama_map, 0);
     ivec2 at = ivec2(panorama_coordinates(d) * vec2(size));
-    return texelFetch(panorama_map, clamp(at, ivec2(0), size - 1), 0).rgb * env_scale.x;
+    vec4 texel = texelFetch(panorama_map, clamp(at, ivec2(0), size - 1), 0);
+    if (texel.a > 0.0) texel.rgb += texel.a * light_color(d);
+    return texel.rgb * env_scale.x;
 }
 
 vec3 estimate(Sampled p, mat3 frame, int i) {
