@@ -53,11 +53,13 @@ Features features_of(const Material& material, const std::bitset<kMapSlots>& bou
     add(is_bound(MapSlot::Normal) && material.normal.value != 0.0f, Feature::NormalMap);
     add(is_bound(MapSlot::Emission) && emits, Feature::EmissionMap);
     add(emits, Feature::Emission);
-    const float reach = view.shading == Shading::Fitted ? brdf::kCoreReach : 1.0f;
+    // What is drawn where the reference is not there yet.
+    const bool fitted = view.shading == Shading::Fitted || view.shading == Shading::Reference;
+    const float reach = fitted ? brdf::kCoreReach : 1.0f;
     add(material.roughness.value < reach * sharpest_roughness, Feature::Sharp);
     add(view.shading == Shading::Course, Feature::Course);
-    add(view.shading == Shading::Fitted, Feature::Fitted);
-    add(view.shading == Shading::Fitted && view.quality == Quality::High, Feature::TwoTaps);
+    add(fitted, Feature::Fitted);
+    add(fitted && view.quality == Quality::High, Feature::TwoTaps);
     add(view.debug != DebugView::Final, Feature::Debug);
     return completed(features);
 }

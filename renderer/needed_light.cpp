@@ -40,9 +40,14 @@ float single_scattering_limit() {
     return limit;
 }
 
+/// The reference is drawn as fitted until it is there.
+bool is_fitted(const View& view) {
+    return view.shading == Shading::Fitted || view.shading == Shading::Reference;
+}
+
 /// Levels that lobes of these roughnesses look up, before clamping to those there are.
 ValueRange looked_up(const View& view, ValueRange roughness) {
-    if (view.shading != Shading::Fitted)
+    if (!is_fitted(view))
         return {std::max(roughness.low, kSharpestLevel), std::max(roughness.high, kSharpestLevel)};
     // Falls to kCoreReach · kSharpestLevel and rises again.
     const float from = brdf::tail_roughness(roughness.low, kSharpestLevel);
@@ -70,7 +75,7 @@ bool is_black(const ColorSlot& albedo) { return albedo.value == glm::vec3(0.0f);
 
 bool needs_irradiance(const Material& material, ValueRange metallic, ValueRange roughness, const View& view) {
     const bool diffuse = metallic.low < 1.0f && !is_black(material.albedo);
-    const bool fitted = view.shading == Shading::Fitted && roughness.high > kMirrorRoughness;
+    const bool fitted = is_fitted(view) && roughness.high > kMirrorRoughness;
     if (fitted && view.debug != DebugView::Diffuse) return true;
     const bool multiple = view.shading != Shading::Course && roughness.high > single_scattering_limit();
     return (diffuse && view.debug != DebugView::Specular) || (multiple && view.debug != DebugView::Diffuse);

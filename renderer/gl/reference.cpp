@@ -2,9 +2,9 @@
 
 #include "renderer/gl/program.h"
 #include "renderer/gl/texture.h"
-#include "renderer/ibl/panorama.h"
 
-#include <glm/glm.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <stdexcept>
@@ -13,6 +13,15 @@
 namespace patina::gl {
 
 namespace {
+
+/// As light.glsl's light_color: of the nearest light, with a mean channel of 1.
+glm::vec3 light_color(const std::vector<ExtractedLight>& lights, glm::vec3 direction) {
+    const auto nearest = std::max_element(lights.begin(), lights.end(), [&](const auto& a, const auto& b) {
+        return glm::dot(a.direction, direction) < glm::dot(b.direction, direction);
+    });
+    const glm::vec3 E = nearest->irradiance;
+    return E * (3.0f / std::max(E.x + E.y + E.z, 1e-30f));
+}
 
 void no_filter(GLenum kind) {
     for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
@@ -178,15 +187,6 @@ std::vector<float> read_replicates(const ReferenceTarget& target) {
 
 void wait_for_gpu() { glFinish(); }
 
-/// The colour of the light that lies nearest to a direction, with a mean channel of 1 (light.glsl).
-static glm::vec3 nearest_color(const std::vector<ExtractedLight>& lights, glm::vec3 d) {
-    const auto nearest = std::ranges::max_element(
-        lights, {}, [&](const ExtractedLight& light) { return glm::dot(light.direction, d); });
-    if (nearest == lights.end()) return glm::vec3(1.0f);
-    const glm::vec3 E = nearest->irradiance;
-    return E * (3.0f / std::max(E.x + E.y + E.z, 1e-30f));
-}
-
 PanoramaTexels read_panorama(const GpuEnvironment& environment) {
     const KeepTextureBindings keep;
     const PackTightly pack;
@@ -196,15 +196,12 @@ PanoramaTexels read_panorama(const GpuEnvironment& environment) {
     glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &texels.height);
     std::vector<glm::vec4> stored(std::size_t(texels.width) * texels.height);
     glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, stored.data());
-    const TexelGrid grid{texels.width, texels.height};
-    texels.radiance.reserve(stored.size());
     for (std::size_t i = 0; i < stored.size(); ++i) {
         glm::vec3 radiance(stored[i]);
-        if (stored[i].w > 0.0f) {
-            const double x = double(i % std::size_t(texels.width)) + 0.5;
-            const double y = double(i / std::size_t(texels.width)) + 0.5;
-            radiance +=
-                stored[i].w * nearest_color(environment.panorama_lights, glm::vec3(grid.direction(x, y)));
+        if (stored[i].a > 0.0f && !environment.panorama_lights.empty()) {
+            const glm::vec2 uv((float(i % texels.width) + 0.5f) / float(texels.width),
+                               (float(i / texels.width) + 0.5f) / float(texels.height));
+            radiance += stored[i].a * light_color(environment.panorama_lights, equirect_to_direction(uv));
         }
         texels.radiance.push_back(radiance * environment.panorama_scale);
     }

@@ -4,7 +4,7 @@
 #include "renderer/lobes/fit_solve.h"
 #include "renderer/lobes/fit_truth.h"
 
-#include <glm/glm.hpp>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
