@@ -86,6 +86,8 @@ public:
     /// Without an environment only emission and a plain background are seen, without a mesh only the
     /// background. The plain background is shown as it is: neither exposure nor tone mapping touch it.
     void draw(const Scene& scene, RenderTarget& target);
+    /// The same several times; the least milliseconds that the GPU took for one.
+    double timed_draw(const Scene& scene, RenderTarget& target);
 
     /// One slice of the reference picture: the points uploaded last, through a picture moved by jitter_px.
     /// Reference (reference.h) puts the slices together.

@@ -138,6 +138,8 @@ std::vector<Panel> builtin_panels() {
         {"light", "Light", "The environment: turn it, expose it, show it.", Side::Right, draw_light_panel},
         {"view", "View", "Shading, camera and mesh.", Side::Right, draw_view_panel},
         {"log", "Log", "What the program has said.", Side::Bottom, draw_log_panel},
+        {"accuracy", "Accuracy", "How far the shading is from the reference, and what it costs.",
+         Side::Bottom, draw_accuracy_panel},
     };
 }
 
@@ -159,6 +161,7 @@ void draw_workspace(PanelContext& context) {
         draw_toolbar(context, layout.toolbar);
         draw_viewport(context, layout.viewport);
     }
+    context.ui.accuracy.meter = context.ui.drawer == "accuracy";
     draw_drawer(context, layout.drawer);
     draw_splitters(context, layout);
     draw_status_line(context, layout.status);
