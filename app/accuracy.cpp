@@ -144,6 +144,7 @@ void AccuracyMeter::State::start_measurement(const std::shared_ptr<State>& self,
                                                               renderer.read_radiance(*reference_target),
                                                               reference->inner_pixels()});
     measured_samples = reference->progress().samples;
+    status.measured = status.measured && measured_mode == judged;
     measured_mode = judged;
     job = jobs.start(
         "Measuring the shading's error",
@@ -192,7 +193,9 @@ void AccuracyMeter::update(const Scene& scene, glm::ivec2 size_px, const ui::Acc
         if (layer.kind == ui::Layer::Mode && layer.mode != Shading::Reference)
             state.draw_other(scene, size_px, layer.mode);
     }
-    state.wanted = reference && final_picture && !held;
+    const bool moves =
+        held && !(state.seen == signature_of(with_shading(scene, Shading::Reference), size_px));
+    state.wanted = reference && final_picture && !moves;
     if (!state.wanted) return;
     state.gather(scene, size_px);
     if (measure && state.measurement_due()) state.start_measurement(state_, scene);
@@ -200,7 +203,7 @@ void AccuracyMeter::update(const Scene& scene, glm::ivec2 size_px, const ui::Acc
 
 bool AccuracyMeter::busy() const {
     const State& state = *state_;
-    return state.wanted && (!state.gathering || !state.reference->progress().done || state.job != 0);
+    return state.wanted && (!state.gathering || !state.reference->progress().done);
 }
 
 ui::Viewport::Picture AccuracyMeter::picture(ui::Layer layer) const {

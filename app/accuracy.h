@@ -18,11 +18,11 @@ public:
     AccuracyMeter& operator=(const AccuracyMeter&) = delete;
 
     /// Once a frame, for what is asked of it: a step of the reference, pictures of other modes, measurements.
-    /// held: the artist moves something; then only real-time pictures are drawn.
+    /// held: the artist holds something; while that changes the scene only real-time pictures are drawn.
     void update(const Scene& scene, glm::ivec2 size_px, const ui::AccuracySettings& settings, bool held);
-    /// It would draw in another frame: not converged, not measured, or not begun.
+    /// The reference has not come to its end: another frame would draw.
     bool busy() const;
-    /// 0 with bottom_up for what is not there yet: the shaded picture stands in.
+    /// No texture for what is not there yet: the shaded picture stands in.
     ui::Viewport::Picture picture(ui::Layer layer) const;
     const ui::AccuracyStatus& status() const;
 

@@ -202,18 +202,23 @@ void Loop::draw_view(glm::ivec2 size_px) {
 
 void Loop::measure_view(glm::ivec2 size_px, bool held) {
     if (size_px.x <= 0 || size_px.y <= 0 || !editor_.reconciler.drawable()) return;
+    const bool before = meter_.busy();
     meter_.update(editor_.reconciler.scene(editor_.camera, editor_.document.view), size_px,
                   editor_.ui.accuracy, held);
-    if (meter_.busy()) ++views_;
+    if (!before && !meter_.busy()) return;
+    ++views_;
+    frames_wanted_ = std::max(frames_wanted_, 1);  // whose words say what this one shows
 }
 
 void Loop::fill_viewport(ui::Viewport& viewport) const {
     if (target_) viewport.texture = Renderer::display_texture(*target_);
-    const ui::AccuracySettings& accuracy = editor_.ui.accuracy;
-    viewport.left = meter_.picture(accuracy.left);
-    viewport.right = meter_.picture(accuracy.right);
-    if (accuracy.left.kind == ui::Layer::View && is_reference(editor_.document.view))
-        viewport.left = meter_.picture({ui::Layer::Mode, Shading::Reference});
+    const auto picture = [&](ui::Layer layer) {
+        if (layer.kind == ui::Layer::View && is_reference(editor_.document.view))
+            layer = {ui::Layer::Mode, Shading::Reference};
+        return meter_.picture(layer);
+    };
+    viewport.left = picture(editor_.ui.accuracy.left);
+    viewport.right = picture(editor_.ui.accuracy.right);
     viewport.accuracy = meter_.status();
 }
 
