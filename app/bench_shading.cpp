@@ -99,33 +99,40 @@ Truth truth_of(Renderer& renderer, const Scene& scene, const Extent& extent) {
             reference.progress().confidence->median};
 }
 
-struct Gathered {
-    std::map<std::string, std::vector<double>> rms;  ///< by material
+/// What is measured with, and what has come of it.
+struct Shop {
+    Renderer& renderer;
+    SceneLoader& loader;
+    const std::vector<Way>& ways;
+    const Extent& extent;
+    std::vector<std::map<std::string, std::vector<double>>> rms;  ///< of each way, by material
+    Json cases = Json::array();
 };
 
-void measure_case(const Case& each, const std::vector<Way>& list, const Extent& extent, SceneLoader& loader,
-                  Renderer& renderer, std::vector<Gathered>& sums, Json& cases) {
+void measure_case(Shop& shop, const Case& each) {
     SceneOptions options;
     options.mesh = each.mesh;
     options.view.background = Background::Plain;
-    Scene scene = loader.scene("-", options);
-    scene.environment = loader.environment(each.environment);
+    Scene scene = shop.loader.scene("-", options);
+    scene.environment = shop.loader.environment(each.environment);
     set_material(scene, each);
-    const Truth truth = truth_of(renderer, scene, extent);
-    const TargetHandle target = renderer.make_target(glm::ivec2(extent.side_px), 1, TargetPrecision::Full);
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        list[i].draw(renderer, scene, *target);
-        const PictureError error = picture_error(renderer.read_radiance(*target), truth.radiance, truth.mask);
-        sums[i].rms[each.material].push_back(error.rms);
-        cases.push_back({{"environment", each.environment},
-                         {"mesh", each.mesh},
-                         {"material", each.material},
-                         {"roughness", each.roughness},
-                         {"mode", list[i].name},
-                         {"rms", error.rms},
-                         {"p95", error.p95},
-                         {"max", error.max},
-                         {"reference_half_width", truth.half_width}});
+    const Truth truth = truth_of(shop.renderer, scene, shop.extent);
+    const TargetHandle target =
+        shop.renderer.make_target(glm::ivec2(shop.extent.side_px), 1, TargetPrecision::Full);
+    for (std::size_t i = 0; i < shop.ways.size(); ++i) {
+        shop.ways[i].draw(shop.renderer, scene, *target);
+        const PictureError error =
+            picture_error(shop.renderer.read_radiance(*target), truth.radiance, truth.mask);
+        shop.rms[i][each.material].push_back(error.rms);
+        shop.cases.push_back({{"environment", each.environment},
+                              {"mesh", each.mesh},
+                              {"material", each.material},
+                              {"roughness", each.roughness},
+                              {"mode", shop.ways[i].name},
+                              {"rms", error.rms},
+                              {"p95", error.p95},
+                              {"max", error.max},
+                              {"reference_half_width", truth.half_width}});
     }
 }
 
@@ -162,14 +169,13 @@ Json bench_shading(const BenchContext& context) {
                        {.parallel_for = jobs.parallel_for(), .cache = {.folder = cache_folder() / "ibl"}});
     const std::vector<Way> list = ways();
     const Extent extent = extent_of(context);
-    std::vector<Gathered> sums(list.size());
-    Json cases = Json::array();
+    Shop shop{.renderer = renderer, .loader = loader, .ways = list, .extent = extent, .rms = {}};
+    shop.rms.resize(list.size());
     for (const std::string& environment : extent.environments)
         for (const std::string& mesh : extent.meshes)
             for (const char* material : {"metal", "dielectric"})
                 for (const float roughness : extent.roughness)
-                    measure_case({environment, mesh, material, roughness}, list, extent, loader, renderer,
-                                 sums, cases);
+                    measure_case(shop, {environment, mesh, material, roughness});
     const std::vector<double> ms = frame_ms(list, loader, renderer, context);
     Json json{{"renderer", gl.description()},   {"environments", extent.environments},
               {"roughness_range", "0.05 to 1"}, {"reference_samples", extent.samples},
@@ -177,7 +183,7 @@ Json bench_shading(const BenchContext& context) {
     if (context.quick) json["roughness_range"] = "0.08, 0.3, 0.65";
     std::printf("%-24s %12s %14s %10s\n", "mode", "F0 = 1", "F0 = 0.04", "cost");
     for (std::size_t i = 0; i < list.size(); ++i) {
-        const double metal = mean_of(sums[i].rms["metal"]), dielectric = mean_of(sums[i].rms["dielectric"]);
+        const double metal = mean_of(shop.rms[i]["metal"]), dielectric = mean_of(shop.rms[i]["dielectric"]);
         std::printf("%-24s %10.2f %% %12.2f %% %10.2f\n", list[i].name.c_str(), 100.0 * metal,
                     100.0 * dielectric, ms[i] / ms[0]);
         json["modes"].push_back({{"name", list[i].name},
@@ -185,7 +191,7 @@ Json bench_shading(const BenchContext& context) {
                                  {"cost", ms[i] / ms[0]},
                                  {"rms", {{"metal", metal}, {"dielectric", dielectric}}}});
     }
-    json["cases"] = std::move(cases);
+    json["cases"] = std::move(shop.cases);
     return json;
 }
 

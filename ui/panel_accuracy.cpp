@@ -161,11 +161,11 @@ void draw_layer_marks(PanelContext& context, const Rect& rect) {
 bool drag_split(PanelContext& context, const Rect& rect) {
     UiState& ui = context.ui;
     const ImGuiIO& io = ImGui::GetIO();
-    const bool near = std::abs(io.MousePos.x - split_x(context, rect)) <= px(6);
+    const bool at_line = std::abs(io.MousePos.x - split_x(context, rect)) <= px(6);
     if (ImGui::IsItemActivated())
-        ui.split_drag = ui.accuracy.split && near && io.MouseDown[ImGuiMouseButton_Left];
+        ui.split_drag = ui.accuracy.split && at_line && io.MouseDown[ImGuiMouseButton_Left];
     if (!ImGui::IsItemActive()) ui.split_drag = false;
-    if (ui.accuracy.split && (ui.split_drag || (near && ImGui::IsItemHovered())))
+    if (ui.accuracy.split && (ui.split_drag || (at_line && ImGui::IsItemHovered())))
         ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     if (!ui.split_drag) return false;
     const float least = std::min(px(8) / std::max(rect.width(), 1.0f), 0.5f);
