@@ -38,6 +38,8 @@ std::vector<double> interleaved_medians_ms(const std::vector<std::function<void(
 
 /// Cost of a frame by shading mode, features and size, on this machine's GL.
 nlohmann::ordered_json bench_frame(const BenchContext& context);
+/// Shading modes and their rivals: error against the reference, and cost of a frame relative to split sum.
+nlohmann::ordered_json bench_shading(const BenchContext& context);
 /// Cost of light: decoding, baking, reading it back from the disk cache.
 nlohmann::ordered_json bench_light(const BenchContext& context);
 /// The editor's start, cold and warm, against a bare window. Needs a display.

@@ -1,5 +1,6 @@
 #include "app/editor.h"
 
+#include "app/accuracy.h"
 #include "app/drive.h"
 #include "app/editor_state.h"
 #include "app/paths.h"
@@ -76,6 +77,8 @@ private:
     void draw_view(glm::ivec2 size_px);
     bool wants_refining() const { return has_drawn_ && shown_ != Pace::Good; }
     Sight sight() const;
+    void measure_view(glm::ivec2 size_px, bool held);
+    void fill_viewport(ui::Viewport& viewport) const;
     void fill_status();
     void fill_thumbnails();
     void after_frame(const ui::PanelContext& context);
@@ -94,6 +97,7 @@ private:
     ui::ItemRecorder items_;
     const Camera home_camera_;
 
+    AccuracyMeter meter_;
     TargetHandle target_;  ///< what is shown, one of targets_
     std::array<TargetHandle, kPaces> targets_;
     glm::ivec2 size_px_{0};  ///< of the picture on the screen
@@ -137,7 +141,8 @@ Loop::Loop(const EditArgs& args, const Registry& registry)
       remembered_(load_settings(state_folder())),
       window_(window_options(args, remembered_.settings)),
       jobs_(worker_count(), Window::wake),
-      editor_(registry, renderer_, jobs_, with_arguments(remembered_.settings, args), args.skip) {
+      editor_(registry, renderer_, jobs_, with_arguments(remembered_.settings, args), args.skip),
+      meter_(renderer_, jobs_) {
     if (!args.drive_script.empty())
         drive_.emplace(load_drive(path_from_utf8(args.drive_script)), args.drive_script);
     editor_.status.renderer = window_.description();
@@ -192,7 +197,7 @@ Sight Loop::sight() const {
 
 bool Loop::needs_frame() const {
     if (window_.minimized()) return false;
-    return frames_wanted_ > 0 || animating_ || editor_.changes != changes_shown_ ||
+    return frames_wanted_ > 0 || animating_ || meter_.busy() || editor_.changes != changes_shown_ ||
            editor_.thumbnails.version() != thumbnails_shown_ || jobs_.running() != jobs_shown_ ||
            editor_.reconciler.pending() != pending_shown_ ||
            (window_.wants_text() && window_.time_s() - last_frame_s_ >= kCaretSeconds) ||
@@ -225,6 +230,28 @@ void Loop::draw_view(glm::ivec2 size_px) {
     drawn_ = std::move(wanted);
     has_drawn_ = true;
     ++views_;
+}
+
+void Loop::measure_view(glm::ivec2 size_px, bool held) {
+    if (size_px.x <= 0 || size_px.y <= 0 || !editor_.reconciler.drawable()) return;
+    const bool before = meter_.busy();
+    meter_.update(editor_.reconciler.scene(editor_.camera, editor_.document.view), size_px,
+                  editor_.ui.accuracy, held);
+    if (!before && !meter_.busy()) return;
+    ++views_;
+    frames_wanted_ = std::max(frames_wanted_, 1);  // whose words say what this one shows
+}
+
+void Loop::fill_viewport(ui::Viewport& viewport) const {
+    if (target_) viewport.texture = Renderer::display_texture(*target_);
+    const auto picture = [&](ui::Layer layer) {
+        if (layer.kind == ui::Layer::View && is_reference(editor_.document.view))
+            layer = {ui::Layer::Mode, Shading::Reference};
+        return meter_.picture(layer);
+    };
+    viewport.left = picture(editor_.ui.accuracy.left);
+    viewport.right = picture(editor_.ui.accuracy.right);
+    viewport.accuracy = meter_.status();
 }
 
 void Loop::fill_status() {
@@ -287,7 +314,7 @@ void Loop::frame() {
                              .mesh_info = editor_.reconciler.mesh_info(),
                              .environment_info = editor_.reconciler.environment_info(),
                              .panels = editor_.registry.panels};
-    if (target_) context.viewport.texture = Renderer::display_texture(*target_);
+    fill_viewport(context.viewport);
     context.work = &renderer_.work();
     context.unsaved = editor_.unsaved ? &*editor_.unsaved : nullptr;
     context.recovery = editor_.recovery_question ? &*editor_.recovery_question : nullptr;
@@ -315,6 +342,8 @@ void Loop::after_frame(const ui::PanelContext& context) {
     settle(editor_, context.result.item_active || context.result.viewport_active);
     editor_.reconciler.update(editor_.document, editor_.opened, sight());
     draw_view(context.result.viewport_size_px);
+    measure_view(context.result.viewport_size_px,
+                 context.result.item_active || context.result.viewport_active);
     animating_ = context.result.wants_redraw;
     if (editor_.clipboard) window_.set_clipboard(*std::exchange(editor_.clipboard, std::nullopt));
 }

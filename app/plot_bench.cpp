@@ -121,6 +121,31 @@ std::vector<NamedPlot> frame_plots(const Json& result) {
     return {{"frame", plot}};
 }
 
+/// Cost against mean error of one material.
+Plot shading_plot(const Json& result, const std::string& material, const std::string& title) {
+    Plot plot;
+    plot.title = title;
+    plot.subtitle = "Mean over environments, meshes and roughness " + result.value("roughness_range", "");
+    plot.x = {"cost of a frame (split sum = 1)", true};
+    plot.y = {"relative rms error (%)", true};
+    plot.pareto = true;
+    for (const Json& mode : result.at("modes")) {
+        const auto [family, setting] = family_and_setting(mode.at("name").get<std::string>());
+        series_named(plot, family)
+            .points.push_back(
+                {mode.at("cost").get<double>(), 100.0 * mode.at("rms").at(material).get<double>(), setting});
+    }
+    plot.notes = {"Error against the sampled reflectance integral at pixel centres. Frames drawn by " +
+                  result.value("renderer", "") + "."};
+    return plot;
+}
+
+std::vector<NamedPlot> shading_plots(const Json& result) {
+    return {{"shading-metal", shading_plot(result, "metal", "Shading a metal, F0 = 1")},
+            {"shading-dielectric",
+             shading_plot(result, "dielectric", "Shading a dielectric, F0 = 0.04, albedo 0.8")}};
+}
+
 /// Only where there are sizes to compare.
 std::vector<NamedPlot> light_plots(const Json& result) {
     Plot plot;
@@ -169,6 +194,7 @@ std::vector<NamedPlot> stability_plots(const Json& result) {
 std::vector<NamedPlot> bench_plots(std::string_view benchmark, const Json& result) {
     if (benchmark == "ibl") return ibl_plots(result);
     if (benchmark == "frame") return frame_plots(result);
+    if (benchmark == "shading") return shading_plots(result);
     if (benchmark == "light") return light_plots(result);
     if (benchmark == "stability") return stability_plots(result);
     return {};

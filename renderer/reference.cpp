@@ -186,6 +186,26 @@ void Reference::write(RenderTarget& target) const {
     state.renderer.show(state.scene.view, target);
 }
 
+Image Reference::inner_pixels() const {
+    const glm::ivec2 size = state_->target.size;
+    const std::vector<float> values = gl::read_replicates(state_->target);
+    const auto covered = [&](int x, int y) {  // rows from the bottom
+        if (x < 0 || y < 0 || x >= size.x || y >= size.y) return true;
+        for (int k = 0; k < kReplicates; ++k)
+            if (!(values[(std::size_t(k) * size.y + y) * size.x + x] > 0.0f)) return false;
+        return true;
+    };
+    Image mask = make_image(size.x, size.y, 1, PixelType::U8);
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            bool inside = true;
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx) inside = inside && covered(x + dx, y + dy);
+            set_texel(mask, x, size.y - 1 - y, 0, inside ? 1.0f : 0.0f);
+        }
+    return mask;
+}
+
 TargetHandle draw_reference(Renderer& renderer, const Scene& scene, glm::ivec2 size_px,
                             const ReferenceOptions& options) {
     TargetHandle target = renderer.make_target(size_px, 1, TargetPrecision::Full);

@@ -60,6 +60,8 @@ public:
     /// The mean so far and its display picture. target: one sample a pixel, the same size. Precondition:
     /// drawn.
     void write(RenderTarget& target) const;
+    /// 1 where the mesh covers a pixel and all around it, else 0: 1 channel, U8, row 0 at the top.
+    Image inner_pixels() const;
 
 private:
     struct State;

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -135,10 +136,11 @@ struct Renderer::State {
     WorkLedger work;
     std::map<Features, gl::Program> surfaces;
     std::map<Features, gl::Program> references;
-    gl::Program depth;                                    ///< of a mesh, nothing else
-    std::array<gl::Program, 2> backgrounds;               ///< sharp, blurred
-    std::map<std::pair<int, int>, gl::Program> displays;  ///< by samples and tone mapper
-    gl::VertexArray nothing = gl::VertexArray::make();    ///< for triangles made in the shader
+    std::map<std::pair<Features, int>, gl::Program> rivals;  ///< by samples
+    gl::Program depth;                                       ///< of a mesh, nothing else
+    std::array<gl::Program, 2> backgrounds;                  ///< sharp, blurred
+    std::map<std::pair<int, int>, gl::Program> displays;     ///< by samples and tone mapper
+    gl::VertexArray nothing = gl::VertexArray::make();       ///< for triangles made in the shader
     gl::Buffer frame_rows = gl::Buffer::make();
     gl::Buffer material_rows = gl::Buffer::make();
     gl::Texture brdf = make_brdf_texture();
@@ -149,11 +151,13 @@ struct Renderer::State {
     void count_draw(std::uint64_t triangles, std::uint64_t calls = 1);
     const gl::Program& surface(Features features);
     const gl::Program& reference(Features features);
+    const gl::Program& rival(Features features, int samples);
     const gl::Program& depth_only();
     const gl::Program& background(Background background);
     const gl::Program& display(int samples, Tonemap tonemap);
     void bind_light(const GpuEnvironment& environment) const;
-    void draw_radiance(const Scene& scene, const GpuEnvironment& environment, RenderTarget& target);
+    void draw_radiance(const Scene& scene, const GpuEnvironment& environment, RenderTarget& target,
+                       std::optional<int> rival_samples = {});
     void bind_maps(const Scene& scene) const;
     void draw_background(Background background);
     void draw_reference(const Scene& scene, const GpuEnvironment& environment, ReferenceTarget& target,
@@ -182,6 +186,15 @@ const gl::Program& Renderer::State::reference(Features features) {
     gl::Program& program = references[features];
     if (!program)
         program = compiled("mesh.vert.glsl", "reference.frag.glsl", defines_of(features));
+    return program;
+}
+
+const gl::Program& Renderer::State::rival(Features features, int samples) {
+    gl::Program& program = rivals[{features, samples}];
+    if (program) return program;
+    std::vector<std::string> defines = defines_of(features);
+    defines.push_back("RIVAL_SAMPLES=" + std::to_string(samples));
+    program = compiled("mesh.vert.glsl", "rivals.frag.glsl", defines);
     return program;
 }
 
@@ -231,7 +244,7 @@ void Renderer::State::draw_background(Background shown) {
 }
 
 void Renderer::State::draw_radiance(const Scene& scene, const GpuEnvironment& environment,
-                                    RenderTarget& target) {
+                                    RenderTarget& target, std::optional<int> rival_samples) {
     glBindFramebuffer(GL_FRAMEBUFFER, target.radiance_framebuffer.name());
     glViewport(0, 0, target.size.x, target.size.y);
     set_switches();
@@ -249,7 +262,9 @@ void Renderer::State::draw_radiance(const Scene& scene, const GpuEnvironment& en
     bind_light(environment);
     if (scene.mesh) {
         bind_maps(scene);
-        glUseProgram(surface(features).name());
+        const gl::Program& program =
+            rival_samples ? rival(reference_features(features), *rival_samples) : surface(features);
+        glUseProgram(program.name());
         const int calls = gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
         count_draw(std::uint64_t(calls) * std::uint64_t(scene.mesh->index_count) / 3, std::uint64_t(calls));
     }
@@ -385,6 +400,25 @@ void Renderer::draw(const Scene& scene, RenderTarget& target) {
     state_->draw_display(shown.view, target);
     ++state_->work.views_drawn;
     state_->work.pixels_drawn += std::uint64_t(target.size.x) * std::uint64_t(target.size.y);
+}
+
+void Renderer::draw_rival(const Scene& scene, RenderTarget& target, int samples) {
+    const gl::KeepDrawState keep;
+    const GpuEnvironment& environment = scene.environment ? *scene.environment : *state_->darkness;
+    target.plain = scene.view.plain_color;
+    state_->draw_radiance(scene, environment, target, samples);
+    state_->draw_display(scene.view, target);
+}
+
+double Renderer::timed_draw(const Scene& scene, RenderTarget& target) {
+    double least = std::numeric_limits<double>::max();
+    for (int i = 0; i < 2; ++i) {  // the first may compile
+        gl::wait_for_gpu();
+        const gl::GpuTimer timer;
+        draw(scene, target);
+        least = std::min(least, timer.milliseconds());
+    }
+    return least;
 }
 
 void Renderer::draw_reference(const Scene& scene, ReferenceTarget& target, const ReferenceSlice& slice) {

@@ -94,6 +94,12 @@ public:
     /// Without an environment only emission and a plain background are seen, without a mesh only the
     /// background. The plain background is shown as it is: neither exposure nor tone mapping touch it.
     void draw(const Scene& scene, RenderTarget& target);
+    /// The same twice; the milliseconds that the GPU took for the shorter one.
+    double timed_draw(const Scene& scene, RenderTarget& target);
+
+    /// Another way to shade, kept to be measured against: run-time filtered importance sampling with so many
+    /// samples; 0: the dominant direction instead of R (shaders/rivals.frag.glsl).
+    void draw_rival(const Scene& scene, RenderTarget& target, int samples);
 
     /// One slice of the reference picture: the points uploaded last, through a picture moved by jitter_px.
     /// Reference (reference.h) puts the slices together.

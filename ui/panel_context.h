@@ -197,7 +197,36 @@ struct BarDrag {
     bool fine = false;
 };
 
+/// What one side of the viewport shows: the picture as the view is set, one shading mode, or how far the
+/// view's shading is from the reference.
+struct Layer {
+    enum Kind { View, Mode, Error, Flip };
+    Kind kind = View;
+    Shading mode = Shading::Reference;
+    bool operator==(const Layer&) const = default;
+};
+struct AccuracySettings {
+    Layer left;  ///< the whole viewport without a split
+    Layer right{Layer::Mode, Shading::Reference};
+    bool split = false;
+    float split_at = 0.5f;  ///< of the viewport's width
+    bool meter = false;     ///< the accuracy drawer is open: measure
+};
+inline constexpr double kErrorWhite = 0.2;  ///< relative error at the heat map's end
+inline constexpr double kFlipWhite = 0.5;
+/// Of the reference that gathers and of the last measurement.
+struct AccuracyStatus {
+    int samples = 0;
+    double half_width = 0.0;  ///< relative 95 % half-width that 95 of 100 pixels keep; 0: not known yet
+    bool converged = false, done = false;
+    bool measured = false;
+    double rms = 0.0, p95 = 0.0, max = 0.0, flip = 0.0;
+    double frame_ms = 0.0;  ///< GPU time of the shading pass
+};
+
 struct UiState {
+    AccuracySettings accuracy;
+    bool split_drag = false;  ///< the split's line is held
     std::string left_tab, right_tab;  ///< panel ids; empty: the first
     std::string drawer;               ///< open bottom panel's id; empty: closed
     bool show_library = true;
@@ -230,6 +259,12 @@ struct Drop {
 struct Viewport {
     TextureId texture = 0;  ///< the display picture; 0: nothing to show yet
     bool bottom_up = true;  ///< its first row is the bottom (OpenGL)
+    struct Picture {
+        TextureId texture = 0;  ///< 0: the display picture stands in
+        bool bottom_up = true;
+    };
+    Picture left, right;  ///< what UiState::accuracy asks for
+    AccuracyStatus accuracy;
 };
 
 /// What the app needs to know after a frame.

@@ -139,6 +139,8 @@ std::vector<Panel> builtin_panels() {
         {"view", "View", "Shading, camera and mesh.", Side::Right, draw_view_panel},
         {"log", "Log", "What the program has said.", Side::Bottom, draw_log_panel},
         {"work", "Work", "What was computed, and what was skipped and why.", Side::Bottom, draw_work_panel},
+        {"accuracy", "Accuracy", "How far the shading is from the reference, and what it costs.",
+         Side::Bottom, draw_accuracy_panel},
     };
 }
 
@@ -160,6 +162,7 @@ void draw_workspace(PanelContext& context) {
         draw_toolbar(context, layout.toolbar);
         draw_viewport(context, layout.viewport);
     }
+    context.ui.accuracy.meter = context.ui.drawer == "accuracy";
     draw_drawer(context, layout.drawer);
     draw_splitters(context, layout);
     draw_status_line(context, layout.status);

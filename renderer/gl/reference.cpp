@@ -187,6 +187,18 @@ std::vector<float> read_replicates(const ReferenceTarget& target) {
 
 void wait_for_gpu() { glFinish(); }
 
+GpuTimer::GpuTimer() {
+    glGenQueries(1, &query_);
+    glBeginQuery(GL_TIME_ELAPSED, query_);
+}
+GpuTimer::~GpuTimer() { glDeleteQueries(1, &query_); }
+double GpuTimer::milliseconds() const {
+    glEndQuery(GL_TIME_ELAPSED);
+    GLuint64 nanoseconds = 0;
+    glGetQueryObjectui64v(query_, GL_QUERY_RESULT, &nanoseconds);
+    return double(nanoseconds) * 1e-6;
+}
+
 PanoramaTexels read_panorama(const GpuEnvironment& environment) {
     const KeepTextureBindings keep;
     const PackTightly pack;

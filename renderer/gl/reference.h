@@ -52,6 +52,19 @@ std::vector<float> read_replicates(const ReferenceTarget& target);
 /// Returns when all that was asked of the driver is done.
 void wait_for_gpu();
 
+/// The time the GPU spends on what is asked of it between the constructor and milliseconds().
+class GpuTimer {
+public:
+    GpuTimer();
+    ~GpuTimer();
+    GpuTimer(const GpuTimer&) = delete;
+    GpuTimer& operator=(const GpuTimer&) = delete;
+    double milliseconds() const;  ///< ends the measurement and waits for it; call once
+
+private:
+    GLuint query_ = 0;
+};
+
 /// The panorama as the shader sees it, without exposure.
 PanoramaTexels read_panorama(const GpuEnvironment& environment);
 
