@@ -296,7 +296,12 @@ LoadedImage load_decoded(const fs::path& file, ImageFormat format, Bytes bytes) 
     check_promise(file, format, bytes);
     const Decoder decoder = open_decoder(file, format, bytes);
     const OIIO::ImageSpec& spec = decoder.spec;
-    if (!can_hold(format, bytes.size(), static_cast<std::uint64_t>(spec.width) * spec.height))
+    // An EXR's display window is allocated, too, whatever its pixels cover.
+    const auto can_hold_all = [&](int width, int height) {
+        return can_hold(format, bytes.size(), static_cast<std::uint64_t>(width) * height);
+    };
+    if (!can_hold_all(spec.width, spec.height) ||
+        (format == ImageFormat::OpenExr && !can_hold_all(spec.full_width, spec.full_height)))
         fail(file, "promises more pixels than it holds; copy or export it again");
     LoadedImage loaded{.image = read_channels(file, decoder)};
     note_selection(decoder, loaded.notes);
