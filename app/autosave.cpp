@@ -1,6 +1,7 @@
 #include "app/autosave.h"
 
 #include "app/paths.h"
+#include "materials/json_text.h"
 #include "materials/material_io.h"
 
 #include <nlohmann/json.hpp>
@@ -59,7 +60,8 @@ std::string to_json(const Recovery& recovery) {
 
 std::optional<Recovery> parse_recovery(std::string_view text) {
     try {
-        const Json json = Json::parse(text);
+        std::vector<std::string> repeated_keys;
+        const Json json = parse_json(text, "recovery file", repeated_keys);  // of bounded depth
         if (json.value("patina_recovery", 0) != kRecoveryVersion) return std::nullopt;
         Recovery recovery;
         recovery.file = path_from_utf8(json.value("file", std::string{}));

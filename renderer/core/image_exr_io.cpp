@@ -212,6 +212,11 @@ DecodedImage decode(const ImageSource& source) {
     const Part part = choose_part(input);
     const Imf::Header& own = input.header(part.index);
     check(own, part);
+    // The display window is allocated, too, whatever the pixels cover.
+    for (const Window& window : {window_of(own.dataWindow()), window_of(own.displayWindow())})
+        if (!can_hold(ImageFormat::OpenExr, source.bytes.size(),
+                      static_cast<std::uint64_t>(window.width) * static_cast<std::uint64_t>(window.height)))
+            throw std::runtime_error("promises more pixels than it holds; copy or export it again");
     if (!input.partComplete(part.index)) throw std::runtime_error("is cut short; copy or export it again");
     DecodedImage decoded{.loaded = {.image = read_part(input, part)}};
     std::vector<std::string>& notes = decoded.loaded.notes;

@@ -25,7 +25,7 @@ std::string_view image_format_id(ImageFormat format);
 struct PromisedSize {
     std::int64_t width = 0, height = 0;
 };
-/// From the headers of PNG and TGA, whose decoders would rather complain in their own words; nothing for the
+/// From the headers of PNG, TGA, BMP and TIFF, whose decoders would rather complain in their own words; nothing for the
 /// others.
 std::optional<PromisedSize> promised_size(ImageFormat format, std::span<const std::byte> bytes);
 

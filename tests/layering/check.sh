@@ -58,6 +58,10 @@ forbid 'files are opened only in *_io.cpp and the bake cache' \
     $(sources app renderer ui materials -- _io.cpp ibl/cache.cpp app/bare_window.cpp)
 forbid 'exceptions are caught only in main, jobs, plug-in calls and shader reload' '(^|[^a-z_])catch \(' \
     $(sources renderer ui materials -- _io.cpp lobes/fit_main.cpp)
+# But the system's file manager, by the one function that shows a folder in it.
+forbid 'no shell and no other program is started' \
+    '(^|[^A-Za-z0-9_.>])(system|popen|_popen|execlp?|execvp?e?|posix_spawnp?|ShellExecute[AW]?|CreateProcess[AW]?)\(' \
+    $(sources app renderer ui materials -- app/file_dialog.cpp)
 
 [ "$failed" = 0 ] && echo 'layering: every rule holds'
 exit "$failed"

@@ -35,6 +35,7 @@ expect_caught renderer/ibl/bake.cpp '    std::thread worker([] {});'
 expect_caught ui/planted.cpp '    std::ifstream file("x");'
 expect_caught renderer/planted.cpp '    } catch (const std::exception&) {'
 expect_caught app/report.cpp '#include <hpdf.h>'
+expect_caught app/planted.cpp '    std::system(command.c_str());'
 expect_caught app/planted.cpp '#include <QWidget>'
 
 [ "$failed" = 0 ] && echo 'layering: every planted violation was caught'
