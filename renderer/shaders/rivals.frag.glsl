@@ -41,7 +41,8 @@ vec3 specular_part(Surface s, vec3 N, vec3 V, float NoV, vec2 ab) {
     float alpha = square(s.roughness);
     vec3 R = mix(N, reflect(-V, N), (1.0 - alpha) * (sqrt(1.0 - alpha) + alpha));
     vec3 F0 = base_reflectance(s.albedo, s.metallic);
-    vec3 sum = prefiltered_light(environment_direction(R), log2(max(s.roughness, 1e-4))) * split_sum_weights(s.albedo, s.metallic, ab).single;
+    vec3 light = prefiltered_light(environment_direction(R), log2(max(s.roughness, 1e-4)));
+    vec3 sum = light * split_sum_weights(s.albedo, s.metallic, ab).single;
     for (int i = 0; i < PATINA_MAX_LIGHTS; ++i) {
         if (float(i) >= counts.x) break;
         vec3 L = light_direction[i].xyz;
