@@ -239,6 +239,16 @@ ImageFormat image_format_of_extension(std::string_view extension) {
 
 std::string_view image_format_id(ImageFormat format) { return kIds[static_cast<std::size_t>(format)]; }
 
+bool png_has_camera_data(Bytes bytes) {
+    for (std::size_t at = 8; at + 12 <= bytes.size();) {
+        const auto is = [&](const char* name) { return std::memcmp(bytes.data() + at + 4, name, 4) == 0; };
+        if (is("eXIf")) return true;
+        if (is("IDAT") || is("IEND")) return false;
+        at += 12 + std::size_t{big_endian_32(bytes, at)};
+    }
+    return false;
+}
+
 std::string image_structure_problem(ImageFormat format, Bytes bytes) {
     if (format == ImageFormat::Png) return png_problem(bytes);
     if (format == ImageFormat::Jpeg) return jpeg_problem(bytes);

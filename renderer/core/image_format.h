@@ -29,6 +29,9 @@ struct PromisedSize {
 /// others.
 std::optional<PromisedSize> promised_size(ImageFormat format, std::span<const std::byte> bytes);
 
+/// Whether a PNG carries EXIF data (camera, orientation) before its pixels. A part of the file will do.
+bool png_has_camera_data(std::span<const std::byte> bytes);
+
 /// What is wrong with the bytes as a whole, as far as the format's structure tells without decoding; empty
 /// where nothing.
 std::string image_structure_problem(ImageFormat format, std::span<const std::byte> bytes);

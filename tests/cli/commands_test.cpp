@@ -348,6 +348,32 @@ TEST(Cache, a_second_render_gives_the_same_picture_from_the_cache) {
     EXPECT_TRUE(cold == work.read("a.exr"));
 }
 
+/// A 1×1 24-bit BMP: the program's module for further formats reads it.
+std::string small_bmp() {
+    const std::string zeros(4, '\0');
+    return "BM" + std::string{58, 0, 0, 0} + zeros +
+           std::string{54, 0, 0, 0, 40, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0} + std::string{1, 0, 24, 0} + zeros +
+           zeros + zeros + zeros + zeros + zeros + std::string{10, 20, 30, 0};
+}
+
+TEST(Module, is_needed_by_rare_formats_alone_and_its_absence_is_one_sentence) {
+    const Workspace work;
+    work.write("dot.bmp", small_bmp());
+    work.write("rare.json", R"({"name": "Rare", "albedo": {"map": "dot.bmp"}})");
+    const std::vector<std::string> rare{"render", "rare.json", "-o",    "a.png",
+                                        "--size", "16x16",     "--env", "furnace"};
+    const Outcome with = work.run(rare);
+    EXPECT_EQ(with.exit_status, 0) << with.errors;
+    fs::remove(work.path("a.png"));
+    setenv("PATINA_MODULE_DIR", work.path("nowhere").c_str(), 1);
+    expect_one_sentence(work, rare, "dot.bmp: is a picture of the kind \"bmp\"");
+    // PNG maps, a Radiance panorama and EXR output never ask for it.
+    const Outcome without =
+        work.run({"render", "worn-paint", "-o", "b.exr", "--size", "16x16", "--env", "furnace"});
+    unsetenv("PATINA_MODULE_DIR");
+    EXPECT_EQ(without.exit_status, 0) << without.errors;
+}
+
 TEST(Edit, without_a_display_is_one_sentence) {
     const Workspace work;
     expect_one_sentence(work, {"edit"}, "display");

@@ -33,7 +33,13 @@ forbid 'the renderer knows neither app nor ui' '#include "(app|ui)/' $(sources r
 forbid 'ui knows only materials and renderer/core' '#include "(app|renderer/(ibl|gl|renderer|features))' $(sources ui)
 
 # Packages behind one door each.
-forbid 'only image_io may name OpenImageIO' '#include <OpenImageIO' $(sources app renderer ui materials -- core/image_io.cpp)
+forbid 'only image_module may name OpenImageIO' '#include <OpenImageIO' \
+    $(sources app renderer ui materials -- core/image_module.cpp)
+forbid 'only image_exr_io may name OpenEXR' '#include <(Imf|Iex|Ilm|Imath|openexr)' \
+    $(sources app renderer ui materials -- core/image_exr_io.cpp)
+forbid 'only image_png_io may name libpng' '#include <png\.h' $(sources app renderer ui materials -- core/image_png_io.cpp)
+forbid 'only module_io may load code' '(dlopen|LoadLibrary[A-Za-z]*)\(' \
+    $(sources app renderer ui materials -- core/module_io.cpp)
 forbid 'only mesh_io may name OpenMesh' '#include <OpenMesh' $(sources app renderer ui materials -- core/mesh_io.cpp)
 forbid 'only report_pdf may name libharu' '#include <hpdf' $(sources app renderer ui materials -- app/report_pdf.cpp)
 forbid 'no Qt' '#include <Q[A-Z]' $(sources app renderer ui materials)
