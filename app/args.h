@@ -34,11 +34,13 @@ struct EditArgs {
     std::string drive_script;
     glm::ivec2 window_px{0};  ///< 0: as last time
     bool skip = true;         ///< as in SceneOptions
+    std::string stats;        ///< file for the work ledger, written at the end; empty: none
 };
 struct RenderArgs {
     std::vector<std::string> presets;  ///< one for render; "-" is the default material
     std::string output;
     SceneOptions scene;
+    std::string stats;  ///< file for the work ledger; empty: none is written
 };
 struct ReportArgs {
     std::string comparison;  ///< file
@@ -53,6 +55,7 @@ struct BakeArgs {
     std::vector<float> roughness;  ///< empty: the standard levels
     bool keep_lights = false;
     std::string format = "exr";
+    std::string stats;  ///< as in RenderArgs
 };
 struct BenchArgs {
     std::vector<std::string> names;         ///< empty: all

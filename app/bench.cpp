@@ -4,6 +4,7 @@
 #include "app/jobs.h"
 #include "app/paths.h"
 #include "app/scene_loader.h"
+#include "app/temporary_folder.h"
 #include "materials/material_io.h"
 
 #include <nlohmann/json.hpp>
@@ -30,22 +31,6 @@ double milliseconds(const std::function<void()>& action) {
     action();
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
-
-/// A folder of our own that is gone afterwards.
-struct TemporaryFolder {
-    fs::path path;
-    TemporaryFolder() {
-        const auto stamp = std::chrono::steady_clock::now().time_since_epoch().count();
-        path = fs::temp_directory_path() / ("patina-bench-" + std::to_string(stamp));
-        fs::create_directories(path);
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-};
 
 struct FrameCase {
     std::string name;
@@ -127,8 +112,8 @@ Json bench_frame(const BenchContext& context) {
 
 Json bench_light(const BenchContext& context) {
     const Jobs jobs(worker_count());
-    const TemporaryFolder folder;
-    const BakeCache cache{.folder = folder.path};
+    const TemporaryFolder folder("patina-bench");
+    const BakeCache cache{.folder = folder.path()};
     Json json{{"environments", Json::array()}};
     std::printf("%-36s %10s %10s %10s\n", "light (ms)", "load", "bake", "cached");
     for (const std::string& id : context.environments) {

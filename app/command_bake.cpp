@@ -5,6 +5,7 @@
 #include "app/jobs.h"
 #include "app/ktx.h"
 #include "app/paths.h"
+#include "app/stats.h"
 #include "renderer/core/file_io.h"
 
 #include <nlohmann/json.hpp>
@@ -122,6 +123,9 @@ int run_bake(const BakeArgs& args, const Registry& registry) {
     const std::string text = json.dump(2) + "\n";
     write_file(folder.path() / "bake.json", std::as_bytes(std::span(text)));
     folder.commit();
+    WorkLedger work{.environments_decoded = 1};
+    count_bake(work, *baked, false);
+    write_stats(args.stats, work);
     return 0;
 }
 

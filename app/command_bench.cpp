@@ -25,6 +25,7 @@ constexpr std::array kBenchmarks{
     Benchmark{"frame", "one frame by shading mode, features and size", bench_frame},
     Benchmark{"stability", "properties on random cases, and errors against roughness and NoV",
               bench_stability},
+    Benchmark{"start", "the editor's start against a bare window", bench_start},
 };
 
 std::vector<const Benchmark*> chosen(const std::vector<std::string>& names) {

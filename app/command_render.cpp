@@ -4,6 +4,7 @@
 #include "app/comparison_sheet.h"
 #include "app/paths.h"
 #include "app/sheet.h"
+#include "app/stats.h"
 #include "app/studio.h"
 
 #include <stdexcept>
@@ -26,6 +27,7 @@ int run_render(const RenderArgs& args, const Registry& registry) {
     const Image image = studio.picture(scene, *target, wants_radiance(args.output));
     exporter.save(path_from_utf8(args.output), image,
                   described(scene.material.name + " under " + args.scene.environments.front()));
+    write_stats(args.stats, studio.renderer.work());
     return 0;
 }
 
@@ -43,6 +45,7 @@ int compare_file(const RenderArgs& args, const Registry& registry) {
         {.cell_px = args.scene.size_px, .radiance = wants_radiance(args.output), .scene = args.scene});
     studio.progress.clear();
     exporter.save(path_from_utf8(args.output), sheet, described(loaded.comparison.title));
+    write_stats(args.stats, studio.renderer.work());
     say("wrote " + args.output);
     return 0;
 }
@@ -73,6 +76,7 @@ int run_compare(const RenderArgs& args, const Registry& registry) {
     }
     studio.progress.clear();
     exporter.save(path_from_utf8(args.output), sheet.image(), described("Presets under several lightings"));
+    write_stats(args.stats, studio.renderer.work());
     say("wrote " + args.output);
     return 0;
 }

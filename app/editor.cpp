@@ -3,6 +3,7 @@
 #include "app/drive.h"
 #include "app/editor_state.h"
 #include "app/paths.h"
+#include "app/stats.h"
 #include "app/window.h"
 #include "materials/text_io.h"
 #include "renderer/core/image_io.h"
@@ -98,6 +99,7 @@ private:
     std::vector<Jobs::Status> jobs_shown_;
     bool pending_shown_ = false;
     double last_frame_s_ = 0.0;
+    std::optional<ProcessMark> first_lit_frame_;
     std::string window_title_;
     std::optional<ui::Drop> drop_;
 };
@@ -256,6 +258,7 @@ void Loop::frame() {
                              .environment_info = editor_.reconciler.environment_info(),
                              .panels = editor_.registry.panels};
     if (target_) context.viewport.texture = Renderer::display_texture(*target_);
+    context.work = &renderer_.work();
     context.unsaved = editor_.unsaved ? &*editor_.unsaved : nullptr;
     context.recovery = editor_.recovery_question ? &*editor_.recovery_question : nullptr;
     const std::optional<ui::Drop> drop = std::exchange(drop_, std::nullopt);
@@ -271,6 +274,8 @@ void Loop::frame() {
     const std::optional<fs::path> screenshot = drive_ ? drive_->take_screenshot() : std::nullopt;
     Image picture;
     window_.end_frame(screenshot ? &picture : nullptr);
+    ++renderer_.work().frames_shown;
+    if (shown && !first_lit_frame_) first_lit_frame_ = mark_process();
     if (screenshot) save_image(*screenshot, picture);
 }
 
@@ -354,7 +359,8 @@ int Loop::run() {
     editor_.recovery.remove();
     try {
         remember_window();
-    } catch (const std::exception& error) {  // closing must not fail for a window size
+        write_stats(args_.stats, renderer_.work(), first_lit_frame_);
+    } catch (const std::exception& error) {  // closing must not fail for what is only kept
         log_line(editor_, ui::Severity::Warning, error.what());
     }
     return 0;

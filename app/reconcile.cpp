@@ -3,6 +3,7 @@
 #include "app/reconcile_light.h"
 #include "app/reconcile_load.h"
 #include "app/reconcile_supply.h"
+#include "app/stats.h"
 #include "materials/params.h"
 #include "materials/text_io.h"
 
@@ -36,22 +37,6 @@ struct HeldEnvironment {
     std::shared_ptr<const HeldLight> light;
     ui::EnvironmentInfo info;
 };
-
-std::uint64_t bytes_of(const Image& image) { return image.bytes.size(); }
-std::uint64_t bytes_of(const MapLevels& map) {
-    std::uint64_t bytes = 0;
-    for (const Image& level : map.levels) bytes += bytes_of(level);
-    return bytes;
-}
-std::uint64_t bytes_of(const Mesh& mesh) {
-    return mesh.vertices.size() * sizeof(Vertex) + mesh.indices.size() * sizeof(std::uint32_t);
-}
-std::uint64_t bytes_of(const PreparedLight& light) {
-    std::uint64_t halves = light.levels.irradiance.rgba.size();
-    for (const PanoramaLevels::Level& level : light.panorama.levels) halves += level.rgba.size();
-    for (const LightLevels::Cube& cube : light.levels.levels) halves += cube.rgba.size();
-    return halves * sizeof(std::uint16_t);
-}
 
 std::string mesh_title(const Registry& registry, const std::string& id) {
     for (const MeshPart& part : registry.meshes)
@@ -231,6 +216,7 @@ Jobs::Id Reconciler::State::start_map(const std::string& key, const MapRequest& 
         const auto ready = std::make_shared<ReadyMap>(load_map(registry, request));
         return [this, key, ready, stamp] {
             files_read.emplace_back(id_of(key), *stamp);
+            add(renderer.work(), ready->work);
             const std::uint64_t bytes = bytes_of(*ready->levels);
             expect(maps, key, ready, std::exchange(ready->levels, nullptr),
                    [this, key, bytes](const ReadyMap& map, MapHandle handle) {
@@ -259,6 +245,7 @@ Jobs::Id Reconciler::State::start_mesh(const std::string& key) {
     struct Ready {
         std::shared_ptr<const Mesh> mesh;
         std::vector<std::string> notes;
+        WorkLedger work;
     };
     const auto stamp = std::make_shared<FileStamp>();
     const auto work = [this, key, id, bare, stamp](JobContext& job) -> Jobs::Done {
@@ -266,11 +253,14 @@ Jobs::Id Reconciler::State::start_mesh(const std::string& key) {
         auto mesh = std::make_shared<Mesh>(bare ? *bare : load_mesh_part(registry, id, job.stop));
         const auto ready = std::make_shared<Ready>();
         if (!bare) ready->notes = mesh->notes;
-        if (wants_tangents(key) && !mesh->has_tangents) make_tangents(*mesh);
+        const bool make = wants_tangents(key) && !mesh->has_tangents;
+        if (make) make_tangents(*mesh);
+        count_mesh(ready->work, *mesh, make);
         auto prepared = std::make_shared<const PreparedMesh>(prepare_mesh(*mesh));
         ready->mesh = std::move(mesh);
         return [this, key, ready, stamp, prepared] {
             files_read.emplace_back(id_of(key), *stamp);
+            add(renderer.work(), ready->work);
             expect(meshes, key, ready, prepared, [this, key](const Ready& loaded, MeshHandle handle) {
                 HeldMesh held{.handle = std::move(handle), .mesh = loaded.mesh};
                 held.info = {.title = mesh_title(registry, id_of(key)),
@@ -298,6 +288,7 @@ Jobs::Id Reconciler::State::start_environment(const std::string& key) {
         return [this, key, order, ready, stamp] {
             files_read.emplace_back(id_of(key), *stamp);
             count_light(order, *ready);
+            patina::count_light(renderer.work(), order, *ready);
             const std::uint64_t bytes = bytes_of(*ready->light) + bytes_of(*ready->held);
             expect(environments, key, ready, std::exchange(ready->light, nullptr),
                    [this, key, bytes](const ReadyLight& light, EnvironmentHandle handle) {
@@ -340,6 +331,7 @@ void Reconciler::State::take_light(const std::string& key, const ReadyLight& lig
 
 void Reconciler::State::start_missing(const Document& document) {
     const auto stop = [this](Jobs::Id id) { jobs.stop(id); };
+    const ReconcileCounts before = counts;
     counts.environments_from_memory +=
         environments.update([this](const std::string& key) { return start_environment(key); }, stop);
     counts.meshes_from_memory +=
@@ -351,6 +343,11 @@ void Reconciler::State::start_missing(const Document& document) {
             return start_map(key, map_request(document.material, MapSlot(slot)));
         },
         stop);
+    WorkLedger& work = renderer.work();
+    work.bakes_from_memory +=
+        std::uint64_t(counts.environments_from_memory - before.environments_from_memory);
+    work.meshes_from_memory += std::uint64_t(counts.meshes_from_memory - before.meshes_from_memory);
+    work.maps_from_memory += std::uint64_t(counts.maps_from_memory - before.maps_from_memory);
 }
 
 bool Reconciler::State::slot_ready(const Document& document, int slot) const {

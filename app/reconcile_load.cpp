@@ -1,5 +1,6 @@
 #include "app/reconcile_load.h"
 
+#include "app/stats.h"
 #include "materials/material_io.h"
 #include "materials/params.h"
 #include "materials/text_io.h"
@@ -80,6 +81,7 @@ ReadyMap load_map(const Registry& registry, const MapRequest& request, int max_s
                std::max(levels->levels[0].width, levels->levels[0].height) > max_side)
             levels->levels.erase(levels->levels.begin());
     ready.ranges = channel_ranges(*levels);
+    count_map(ready.work, loaded.image, *levels);
     ready.levels = std::move(levels);
     return ready;
 }

@@ -33,6 +33,7 @@ struct ReadyMap {
     int width = 0, height = 0, channels = 0, bits = 0;
     std::uint64_t file_bytes = 0;
     std::vector<std::string> notes;
+    WorkLedger work;
 };
 inline constexpr int kThumbnailPx = 128;
 

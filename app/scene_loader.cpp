@@ -1,6 +1,7 @@
 #include "app/scene_loader.h"
 
 #include "app/paths.h"
+#include "app/stats.h"
 #include "materials/material_io.h"
 #include "materials/params.h"
 
@@ -71,6 +72,7 @@ EnvironmentHandle SceneLoader::environment(const std::string& id, const NeededLi
         get_light(registry_, order, BakeSettings{}, options_.cache, control);
     if (!ready) throw std::runtime_error(id + ": the bake was stopped");
     for (const std::string& note : ready->notes) options_.note(id + ": " + note);
+    count_light(renderer_.work(), order, *ready);
     light.held = ready->held;
     return light.handle = Renderer::begin_upload(ready->light).finish();
 }
@@ -80,13 +82,18 @@ MeshHandle SceneLoader::mesh(const std::string& id, bool with_tangents) {
     if (handle) return handle;
     Mesh mesh = load_mesh_part(registry_, id);
     for (const std::string& note : mesh.notes) options_.note(id + ": " + note);
-    if (with_tangents && !mesh.has_tangents) make_tangents(mesh);
+    const bool make = with_tangents && !mesh.has_tangents;
+    if (make) make_tangents(mesh);
+    count_mesh(renderer_.work(), mesh, make);
     return handle = renderer_.upload_mesh(mesh);
 }
 
 MapHandle SceneLoader::map(const MapSource& source, const std::string& preset) {
     auto& [handle, ranges] = maps_[{utf8_from_path(source.file), source.kind, source.color_space}];
-    if (handle) return handle;
+    if (handle) {
+        ++renderer_.work().maps_from_memory;
+        return handle;
+    }
     options_.progress("loading " + utf8_from_path(source.file.filename()), 0.0f);
     LoadedImage loaded;
     try {
@@ -101,6 +108,7 @@ MapHandle SceneLoader::map(const MapSource& source, const std::string& preset) {
     for (const std::string& note : loaded.notes) options_.note(note);
     const MapLevels levels = make_map_levels(loaded.image, source.kind, source.color_space);
     ranges = channel_ranges(levels);
+    count_map(renderer_.work(), loaded.image, levels);
     return handle = renderer_.upload_map(levels);
 }
 

@@ -103,6 +103,7 @@ void set_switches() {
 }  // namespace
 
 struct Renderer::State {
+    WorkLedger work;
     std::map<Features, gl::Program> surfaces;
     std::map<Features, gl::Program> references;
     gl::Program depth;                                    ///< of a mesh, nothing else
@@ -114,6 +115,8 @@ struct Renderer::State {
     gl::Texture brdf = make_brdf_texture();
     EnvironmentHandle darkness = make_darkness();
 
+    gl::Program compiled(const char* vertex, const char* fragment, const std::vector<std::string>& defines);
+    void count_draw(std::uint64_t triangles, std::uint64_t calls = 1);
     const gl::Program& surface(Features features);
     const gl::Program& reference(Features features);
     const gl::Program& depth_only();
@@ -128,26 +131,33 @@ struct Renderer::State {
     void draw_display(const View& view, const RenderTarget& target);
 };
 
+gl::Program Renderer::State::compiled(const char* vertex, const char* fragment,
+                                      const std::vector<std::string>& defines) {
+    ++work.programs_compiled;
+    return gl::make_program(gl::embedded_shader(vertex), gl::embedded_shader(fragment), defines);
+}
+
+void Renderer::State::count_draw(std::uint64_t triangles, std::uint64_t calls) {
+    work.draw_calls += calls;
+    work.triangles_drawn += triangles;
+}
+
 const gl::Program& Renderer::State::surface(Features features) {
     gl::Program& program = surfaces[features];
-    if (!program)
-        program = gl::make_program(gl::embedded_shader("mesh.vert.glsl"),
-                                   gl::embedded_shader("mesh.frag.glsl"), defines_of(features));
+    if (!program) program = compiled("mesh.vert.glsl", "mesh.frag.glsl", defines_of(features));
     return program;
 }
 
 const gl::Program& Renderer::State::reference(Features features) {
     gl::Program& program = references[features];
     if (!program)
-        program = gl::make_program(gl::embedded_shader("mesh.vert.glsl"),
-                                   gl::embedded_shader("reference.frag.glsl"), defines_of(features));
+        program = compiled("mesh.vert.glsl", "reference.frag.glsl", defines_of(features));
     return program;
 }
 
 const gl::Program& Renderer::State::depth_only() {
     if (!depth)
-        depth =
-            gl::make_program(gl::embedded_shader("mesh.vert.glsl"), gl::embedded_shader("depth.frag.glsl"));
+        depth = compiled("mesh.vert.glsl", "depth.frag.glsl", {});
     return depth;
 }
 
@@ -155,9 +165,8 @@ const gl::Program& Renderer::State::background(Background background) {
     const bool blurred = background == Background::Blurred;
     gl::Program& program = backgrounds[blurred ? 1 : 0];
     if (!program)
-        program = gl::make_program(
-            gl::embedded_shader("background.vert.glsl"), gl::embedded_shader("background.frag.glsl"),
-            blurred ? std::vector<std::string>{"HAS_BLUR"} : std::vector<std::string>{});
+        program = compiled("background.vert.glsl", "background.frag.glsl",
+                           blurred ? std::vector<std::string>{"HAS_BLUR"} : std::vector<std::string>{});
     return program;
 }
 
@@ -166,8 +175,7 @@ const gl::Program& Renderer::State::display(int samples, Tonemap tonemap) {
     if (program) return program;
     std::vector<std::string> defines{"TONEMAP=" + std::to_string(int(tonemap))};
     if (samples > 1) defines.push_back("SAMPLES=" + std::to_string(samples));
-    program = gl::make_program(gl::embedded_shader("display.vert.glsl"),
-                               gl::embedded_shader("display.frag.glsl"), defines);
+    program = compiled("display.vert.glsl", "display.frag.glsl", defines);
     return program;
 }
 
@@ -211,10 +219,12 @@ void Renderer::State::draw_radiance(const Scene& scene, const GpuEnvironment& en
     if (scene.mesh) {
         bind_maps(scene);
         glUseProgram(surface(features).name());
-        gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
+        const int calls = gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
+        count_draw(std::uint64_t(calls) * std::uint64_t(scene.mesh->index_count) / 3, std::uint64_t(calls));
     }
     if (scene.view.background == Background::Plain || is_data_view(scene.view.debug)) return;
     draw_background(scene.view.background);
+    count_draw(1);
 }
 
 void Renderer::State::draw_reference(const Scene& scene, const GpuEnvironment& environment,
@@ -261,6 +271,7 @@ void Renderer::State::draw_display(const View& view, const RenderTarget& target)
     glUniform3f(glGetUniformLocation(program.name(), "plain"), plain.x, plain.y, plain.z);
     glBindVertexArray(nothing.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    count_draw(1);
     glBindTexture(target.radiance_kind(), 0);
 }
 
@@ -324,6 +335,8 @@ MapHandle Renderer::upload_thumbnail(const Image& image) {
     return std::make_shared<GpuMap>(gl::make_interface_texture(image));
 }
 
+WorkLedger& Renderer::work() { return state_->work; }
+
 std::uintptr_t Renderer::texture_of(const GpuMap& map) { return map.texture.name(); }
 
 TargetHandle Renderer::make_target(glm::ivec2 size_px, int samples, TargetPrecision precision) {
@@ -339,6 +352,8 @@ void Renderer::draw(const Scene& scene, RenderTarget& target) {
     target.plain = scene.view.plain_color;
     state_->draw_radiance(shown, environment, target);
     state_->draw_display(shown.view, target);
+    ++state_->work.views_drawn;
+    state_->work.pixels_drawn += std::uint64_t(target.size.x) * std::uint64_t(target.size.y);
 }
 
 void Renderer::draw_reference(const Scene& scene, ReferenceTarget& target, const ReferenceSlice& slice) {

@@ -9,6 +9,7 @@
 #include "renderer/core/camera.h"
 #include "renderer/core/environment.h"
 #include "renderer/core/image.h"
+#include "renderer/core/ledger.h"
 #include "renderer/core/mesh.h"
 #include "renderer/core/view.h"
 #include "renderer/gl/light_levels.h"
@@ -115,6 +116,9 @@ public:
     /// An 8-bit picture as a texture for the interface (thumbnails); released with the handle.
     MapHandle upload_thumbnail(const Image& image);
     static std::uintptr_t texture_of(const GpuMap& map);
+
+    /// What was done for pictures drawn with this renderer; whoever loads or bakes for it adds to it.
+    WorkLedger& work();
 
 private:
     struct State;

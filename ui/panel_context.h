@@ -7,6 +7,7 @@
 
 #include "materials/material.h"
 #include "renderer/core/camera.h"
+#include "renderer/core/ledger.h"
 #include "renderer/core/view.h"
 #include "ui/recorder.h"
 #include "ui/requests.h"
@@ -259,6 +260,7 @@ struct PanelContext {
     const EnvironmentInfo& environment_info;
     const std::vector<Panel>& panels;  ///< builtin_panels() and whatever the registry adds
     Viewport viewport;
+    const WorkLedger* work = nullptr;  ///< counted since the start, or since request::ClearWork
     const UnsavedQuestion* unsaved = nullptr;
     const RecoveryQuestion* recovery = nullptr;
     const Drop* drop = nullptr;  ///< dropped since the last frame; panels turn it into request::Dropped

@@ -15,6 +15,7 @@ void draw_light_panel(PanelContext& context);
 void draw_view_panel(PanelContext& context);
 // Drawer.
 void draw_log_panel(PanelContext& context);
+void draw_work_panel(PanelContext& context);
 
 // Frame of the window.
 float menu_height();

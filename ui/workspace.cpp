@@ -138,6 +138,7 @@ std::vector<Panel> builtin_panels() {
         {"light", "Light", "The environment: turn it, expose it, show it.", Side::Right, draw_light_panel},
         {"view", "View", "Shading, camera and mesh.", Side::Right, draw_view_panel},
         {"log", "Log", "What the program has said.", Side::Bottom, draw_log_panel},
+        {"work", "Work", "What was computed, and what was skipped and why.", Side::Bottom, draw_work_panel},
     };
 }
 

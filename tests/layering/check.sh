@@ -45,17 +45,17 @@ forbid 'only report_pdf may name libharu' '#include <hpdf' $(sources app rendere
 forbid 'no Qt' '#include <Q[A-Z]' $(sources app renderer ui materials)
 
 # Actions.
-gl_rooms='renderer/gl/[^/]* renderer/renderer.cpp app/window.cpp app/headless.cpp'
+gl_rooms='renderer/gl/[^/]* renderer/renderer.cpp app/window.cpp app/headless.cpp app/bare_window.cpp'
 # shellcheck disable=SC2086
 forbid 'GL calls only in renderer/gl, renderer.cpp, window.cpp, headless.cpp' \
     '(^|[^A-Za-z0-9_:.>])gl[A-Z][A-Za-z0-9]*\(|<epoxy/' $(sources app renderer ui materials -- $gl_rooms)
-forbid 'ImGui calls only in ui and app/window.cpp' 'ImGui::|<imgui' $(sources app renderer materials -- app/window.cpp)
+forbid 'ImGui calls only in ui and app/window.cpp' 'ImGui::|<imgui' $(sources app renderer materials -- app/window.cpp app/bare_window.cpp)
 forbid 'threads and mutexes only in app/jobs' \
     'std::(jthread|thread|mutex|async|condition_variable)|<(thread|mutex|future|condition_variable)>' \
     $(sources app renderer ui materials -- app/jobs.cpp app/jobs.h)
 forbid 'files are opened only in *_io.cpp and the bake cache' \
     'std::[io]?fstream|<fstream>|[^a-z_]fopen\(' \
-    $(sources app renderer ui materials -- _io.cpp ibl/cache.cpp)
+    $(sources app renderer ui materials -- _io.cpp ibl/cache.cpp app/bare_window.cpp)
 forbid 'exceptions are caught only in main, jobs, plug-in calls and shader reload' '(^|[^a-z_])catch \(' \
     $(sources renderer ui materials -- _io.cpp)
 

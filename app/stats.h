@@ -1,0 +1,51 @@
+// What the work ledger is told and what it tells: counting of loads and bakes, and the JSON file of --stats.
+#pragma once
+
+#include "renderer/core/ledger.h"
+#include "renderer/core/mesh.h"
+#include "renderer/gl/panorama.h"
+#include "renderer/ibl/cache.h"
+#include "renderer/map_levels.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace patina {
+
+void count_bake(WorkLedger& work, const BakedEnvironment& baked, bool from_disk);
+/// A picture that became a map on the GPU.
+void count_map(WorkLedger& work, const Image& decoded, const MapLevels& uploaded);
+/// A mesh on the GPU; tangents: they were made for it.
+void count_mesh(WorkLedger& work, const Mesh& mesh, bool tangents);
+std::uint64_t bytes_of(const MapLevels& map);
+std::uint64_t bytes_of(const Mesh& mesh);
+/// Of the light on the GPU, panorama included: half floats, four channels.
+std::uint64_t bytes_of(const PanoramaLevels& panorama, const BakedEnvironment& baked);
+
+/// {"work": {every counter}, "skipped": [{"what", "why", "times"}]}
+nlohmann::ordered_json to_json(const WorkLedger& work);
+/// The same, with "cpu_s" and "peak_memory_bytes" of this process so far. No file where its name is empty.
+void write_stats(const std::string& file, const WorkLedger& work);
+/// With "first_lit_frame", when the window first showed the object in its light.
+void write_stats(const std::string& file, const WorkLedger& work,
+                 const std::optional<ProcessMark>& first_lit_frame);
+
+/// A moment of this process: on the steady clock (whose zero all processes share on most systems), with what
+/// it had used by then.
+struct ProcessMark {
+    double at_s = 0.0;
+    double cpu_s = 0.0;
+    std::uint64_t peak_memory_bytes = 0;
+};
+ProcessMark mark_process();
+
+/// CPU time of all threads of this process in seconds; the most memory it has had in bytes (0 where the
+/// system does not tell).
+double process_cpu_s();
+std::uint64_t process_peak_memory_bytes();
+
+}  // namespace patina
