@@ -26,14 +26,6 @@ std::uint64_t bytes_of(const Mesh& mesh);
 /// Of the light on the GPU, panorama included: half floats, four channels.
 std::uint64_t bytes_of(const PanoramaLevels& panorama, const BakedEnvironment& baked);
 
-/// {"work": {every counter}, "skipped": [{"what", "why", "times"}]}
-nlohmann::ordered_json to_json(const WorkLedger& work);
-/// The same, with "cpu_s" and "peak_memory_bytes" of this process so far. No file where its name is empty.
-void write_stats(const std::string& file, const WorkLedger& work);
-/// With "first_lit_frame", when the window first showed the object in its light.
-void write_stats(const std::string& file, const WorkLedger& work,
-                 const std::optional<ProcessMark>& first_lit_frame);
-
 /// A moment of this process: on the steady clock (whose zero all processes share on most systems), with what
 /// it had used by then.
 struct ProcessMark {
@@ -42,6 +34,14 @@ struct ProcessMark {
     std::uint64_t peak_memory_bytes = 0;
 };
 ProcessMark mark_process();
+
+/// {"work": {every counter}, "skipped": [{"what", "why", "times"}]}
+nlohmann::ordered_json to_json(const WorkLedger& work);
+/// The same, with "cpu_s" and "peak_memory_bytes" of this process so far. No file where its name is empty.
+void write_stats(const std::string& file, const WorkLedger& work);
+/// With "first_lit_frame", when the window first showed the object in its light.
+void write_stats(const std::string& file, const WorkLedger& work,
+                 const std::optional<ProcessMark>& first_lit_frame);
 
 /// CPU time of all threads of this process in seconds; the most memory it has had in bytes (0 where the
 /// system does not tell).
