@@ -27,12 +27,11 @@ std::uint64_t bytes_of(const Mesh& mesh) {
     return mesh.vertices.size() * sizeof(Vertex) + mesh.indices.size() * sizeof(std::uint32_t);
 }
 
-std::uint64_t bytes_of(const PanoramaLevels& panorama, const BakedEnvironment& baked) {
-    constexpr std::uint64_t texel_bytes = 8;
-    std::uint64_t texels = baked.irradiance.texels.size();
-    for (const PanoramaLevels::Level& level : panorama.levels) texels += level.rgba.size() / 4;
-    for (const PrefilteredLevel& level : baked.levels) texels += level.cube.texels.size();
-    return texels * texel_bytes;
+std::uint64_t bytes_of(const PreparedLight& light) {
+    std::uint64_t halves = light.levels.irradiance.rgba.size();
+    for (const PanoramaLevels::Level& level : light.panorama.levels) halves += level.rgba.size();
+    for (const LightLevels::Cube& cube : light.levels.levels) halves += cube.rgba.size();
+    return halves * sizeof(std::uint16_t);
 }
 
 void count_bake(WorkLedger& work, const BakedEnvironment& baked, bool from_disk) {

@@ -3,7 +3,7 @@
 
 #include "renderer/core/ledger.h"
 #include "renderer/core/mesh.h"
-#include "renderer/gl/panorama.h"
+#include "renderer/gl/light_levels.h"
 #include "renderer/ibl/cache.h"
 #include "renderer/map_levels.h"
 
@@ -23,8 +23,8 @@ void count_map(WorkLedger& work, const Image& decoded, const MapLevels& uploaded
 void count_mesh(WorkLedger& work, const Mesh& mesh, bool tangents);
 std::uint64_t bytes_of(const MapLevels& map);
 std::uint64_t bytes_of(const Mesh& mesh);
-/// Of the light on the GPU, panorama included: half floats, four channels.
-std::uint64_t bytes_of(const PanoramaLevels& panorama, const BakedEnvironment& baked);
+/// Panorama included.
+std::uint64_t bytes_of(const PreparedLight& light);
 
 /// A moment of this process: on the steady clock (whose zero all processes share on most systems), with what
 /// it had used by then.
