@@ -1,13 +1,12 @@
 // The least program with a window: GLFW, OpenGL 4.1 and Dear ImGui with one line of text. `patina bench
 // start` holds the editor's start against it. Usage: patina_bare_window WIDTH HEIGHT FILE; writes when its
 // first frame was shown.
-#include <epoxy/gl.h>
-
 #include <GLFW/glfw3.h>
-#include <backends/imgui_impl_glfw.h>
-#include <backends/imgui_impl_opengl3.h>
+#include <epoxy/gl.h>
 #include <imgui.h>
 
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>

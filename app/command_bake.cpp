@@ -124,7 +124,7 @@ int run_bake(const BakeArgs& args, const Registry& registry) {
     write_file(folder.path() / "bake.json", std::as_bytes(std::span(text)));
     folder.commit();
     WorkLedger work{.environments_decoded = 1};
-    count_bake(work, *baked, false);
+    count_bake(work, *baked);
     write_stats(args.stats, work);
     return 0;
 }

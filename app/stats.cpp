@@ -34,14 +34,29 @@ std::uint64_t bytes_of(const PreparedLight& light) {
     return halves * sizeof(std::uint16_t);
 }
 
-void count_bake(WorkLedger& work, const BakedEnvironment& baked, bool from_disk) {
-    if (from_disk) {
-        ++work.bakes_from_disk;
-        return;
-    }
+void count_bake(WorkLedger& work, const BakedEnvironment& baked) {
     ++work.sphere_transforms;
     work.levels_baked += baked.levels.size();
     if (baked.irradiance.size > 0) ++work.irradiance_bakes;
+}
+
+void count_light(WorkLedger& work, const LightOrder& order, const ReadyLight& ready) {
+    const bool is_baked = ready.levels_baked > 0 || ready.irradiance_baked;
+    if (!order.held || !order.held->environment) ++work.environments_decoded;
+    work.bakes_from_disk += ready.from_disk ? 1 : 0;
+    work.first_lights += ready.is_first_light ? 1 : 0;
+    work.sphere_transforms += is_baked ? 1 : 0;
+    work.levels_baked += std::uint64_t(ready.levels_baked);
+    work.irradiance_bakes += ready.irradiance_baked ? 1 : 0;
+    ++work.environments_uploaded;
+    if (ready.light) work.environment_bytes_uploaded += bytes_of(*ready.light);
+    if (!order.needed || ready.is_first_light || ready.held->is_whole) return;
+    if (!order.needed->irradiance)
+        skip(work, "irradiance", "nothing in the picture scatters light diffusely");
+    if (order.needed->roughness.empty())
+        skip(work, "prefiltered levels", "nothing in the picture reflects light blurred");
+    else if (ready.held->exact.levels.size() < standard_roughness_levels().size())
+        skip(work, "further roughness levels", "the material does not reach them");
 }
 
 void count_map(WorkLedger& work, const Image& decoded, const MapLevels& uploaded) {

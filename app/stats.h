@@ -1,10 +1,10 @@
 // What the work ledger is told and what it tells: counting of loads and bakes, and the JSON file of --stats.
 #pragma once
 
+#include "app/reconcile_light.h"
 #include "renderer/core/ledger.h"
 #include "renderer/core/mesh.h"
 #include "renderer/gl/light_levels.h"
-#include "renderer/ibl/cache.h"
 #include "renderer/map_levels.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -16,7 +16,10 @@
 
 namespace patina {
 
-void count_bake(WorkLedger& work, const BakedEnvironment& baked, bool from_disk);
+/// All of an environment's light, newly baked.
+void count_bake(WorkLedger& work, const BakedEnvironment& baked);
+/// Light that a picture asked for, with what it did not need.
+void count_light(WorkLedger& work, const LightOrder& order, const ReadyLight& ready);
 /// A picture that became a map on the GPU.
 void count_map(WorkLedger& work, const Image& decoded, const MapLevels& uploaded);
 /// A mesh on the GPU; tangents: they were made for it.

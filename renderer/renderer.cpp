@@ -60,14 +60,9 @@ EnvironmentHandle make_darkness() {
 }
 
 LightLayout layout_of(const GpuEnvironment& environment) {
-    return {environment.panorama_scale,
-            environment.levels_scale,
-            environment.irradiance_scale,
-            environment.texels_per_radian,
-            environment.layers,
-            environment.roughness,
-            environment.sharpest,
-            environment.lights};
+    return {environment.panorama_scale,    environment.levels_scale, environment.irradiance_scale,
+            environment.texels_per_radian, environment.layers,       environment.roughness,
+            environment.sharpest,          environment.lights};
 }
 
 Features features_for(const Scene& scene, const GpuEnvironment& environment) {
