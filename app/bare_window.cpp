@@ -1,6 +1,7 @@
 // The least program with a window: GLFW, OpenGL 4.1 and Dear ImGui with one line of text. `patina bench
 // start` holds the editor's start against it. Usage: patina_bare_window WIDTH HEIGHT FILE; writes when its
 // first frame was shown.
+#define GLFW_INCLUDE_NONE  // the functions come from epoxy
 #include <GLFW/glfw3.h>
 #include <epoxy/gl.h>
 #include <imgui.h>
