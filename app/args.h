@@ -38,6 +38,9 @@ struct RenderArgs {
     std::vector<std::string> presets;  ///< one for render; "-" is the default material
     std::string output;
     SceneOptions scene;
+    int turntable = 0;        ///< > 0: so many pictures of a whole turn, numbered
+    bool turn_light = false;  ///< the light goes round instead of the camera
+    bool up_to_date = false;  ///< leave a picture alone that this very command would make again
 };
 struct ReportArgs {
     std::string comparison;  ///< file

@@ -103,6 +103,22 @@ constexpr std::array kValues{
                [](const DriveView& v) { return std::string(v.editor.recovery_question ? "asked" : "no"); }},
     NamedValue{"undo", [](const DriveView& v) { return v.editor.status.undo_what; }},
     NamedValue{"redo", [](const DriveView& v) { return v.editor.status.redo_what; }},
+    NamedValue{"sheet_views",
+               [](const DriveView& v) {
+                   const auto& sheet = v.editor.document.sheet;
+                   return std::to_string(sheet ? places_of(*sheet).size() : 0);
+               }},
+    NamedValue{"sheet_selected",
+               [](const DriveView& v) { return std::to_string(v.editor.ui.sheet_selected + 1); }},
+    NamedValue{"sheet_file", [](const DriveView& v) { return utf8_from_path(v.editor.sheet.file); }},
+    NamedValue{"sheet_rotations",
+               [](const DriveView& v) {
+                   std::string text;
+                   if (v.editor.document.sheet)
+                       for (const Lighting& light : v.editor.document.sheet->columns)
+                           text += (text.empty() ? "" : ",") + text_of(light.rotation_deg);
+                   return text;
+               }},
     NamedValue{"frames", [](const DriveView& v) { return std::to_string(v.frames); }},
     NamedValue{"views", [](const DriveView& v) { return std::to_string(v.views); }},
     NamedValue{"turns", [](const DriveView& v) { return std::to_string(v.turns); }},

@@ -4,6 +4,7 @@
 
 #include "app/autosave.h"
 #include "app/document.h"
+#include "app/editor_sheet.h"
 #include "app/jobs.h"
 #include "app/reconcile.h"
 #include "app/registry.h"
@@ -45,6 +46,7 @@ struct Editor {
     std::uint64_t opened = 0;  ///< documents so far
     Reconciler reconciler;
     Thumbnails thumbnails;
+    EditorSheet sheet;
 
     // The interface's side.
     ui::UiState ui;

@@ -1,5 +1,6 @@
 #include "app/reconcile.h"
 
+#include "app/reconcile_bytes.h"
 #include "app/reconcile_light.h"
 #include "app/reconcile_load.h"
 #include "app/reconcile_supply.h"
@@ -10,6 +11,7 @@
 #include <chrono>
 #include <deque>
 #include <map>
+#include <span>
 #include <utility>
 
 namespace patina {
@@ -37,22 +39,6 @@ struct HeldEnvironment {
     ui::EnvironmentInfo info;
 };
 
-std::uint64_t bytes_of(const Image& image) { return image.bytes.size(); }
-std::uint64_t bytes_of(const MapLevels& map) {
-    std::uint64_t bytes = 0;
-    for (const Image& level : map.levels) bytes += bytes_of(level);
-    return bytes;
-}
-std::uint64_t bytes_of(const Mesh& mesh) {
-    return mesh.vertices.size() * sizeof(Vertex) + mesh.indices.size() * sizeof(std::uint32_t);
-}
-std::uint64_t bytes_of(const PreparedLight& light) {
-    std::uint64_t halves = light.levels.irradiance.rgba.size();
-    for (const PanoramaLevels::Level& level : light.panorama.levels) halves += level.rgba.size();
-    for (const LightLevels::Cube& cube : light.levels.levels) halves += cube.rgba.size();
-    return halves * sizeof(std::uint16_t);
-}
-
 std::string mesh_title(const Registry& registry, const std::string& id) {
     for (const MeshPart& part : registry.meshes)
         if (part.id == id) return part.title;
@@ -78,23 +64,32 @@ struct Reconciler::State {
     ReconcileCounts counts;
     std::map<std::string, LightOrder> light_orders;  ///< of what is wanted, by key
 
-    // The picture: what was complete last.
-    Material material;
-    std::array<MapHandle, kMapSlots> handles;
-    std::uint64_t opened = 0;
-    bool presented = false;
+    /// What was complete last, and which documents' it was.
+    struct Picture {
+        Material material;
+        std::array<MapHandle, kMapSlots> handles;
+        std::uint64_t opened = 0;
+        bool presented = false;
+    };
+    std::vector<Picture> pictures{1 + kMaxFurtherPictures};  ///< the document's first
+    std::map<std::string, MapRequest> map_requests;          ///< what is wanted now, by key
     std::array<ui::MapStatus, kMapSlots> status;
     ui::MeshInfo no_mesh;
     ui::EnvironmentInfo no_environment;
 
+    static std::size_t map_slot(std::size_t picture, int slot) {
+        return picture * std::size_t(kMapSlots) + std::size_t(slot);
+    }
     std::string versioned(const std::string& id) const {
         const auto found = versions.find(id);
         return id + kVersionMark + std::to_string(found == versions.end() ? 0 : found->second);
     }
-    void want(const Document& document);
-    std::optional<NeededLight> needed_by(const Document& document) const;
+    void want(std::size_t picture, const WantedPicture& wanted);
+    void want_light(std::span<const WantedPicture* const> wanted);
+    void want_nothing(std::size_t picture);
+    std::optional<NeededLight> needed_by(std::size_t picture, const WantedPicture& wanted) const;
     std::string light_key(const std::string& environment, const std::optional<NeededLight>& needed);
-    void start_missing(const Document& document);
+    void start_missing();
     Jobs::Id start_map(const std::string& key, const MapRequest& request);
     Jobs::Id start_mesh(const std::string& key);
     Jobs::Id start_environment(const std::string& key);
@@ -109,10 +104,12 @@ struct Reconciler::State {
     std::function<void(const std::string&)> when_failed(Supply<T>& supply, const std::string& key,
                                                         const std::shared_ptr<FileStamp>& stamp);
     void note(const std::string& id, const std::vector<std::string>& notes) const;
-    bool slot_ready(const Document& document, int slot) const;
-    bool light_ready() const;
-    MapHandle handle_for(const Document& document, int slot) const;
-    void present(const Document& document, std::uint64_t opened_now);
+    bool slot_ready(std::size_t picture, const Material& material, int slot) const;
+    bool light_ready(std::size_t picture) const;
+    MapHandle handle_for(std::size_t picture, const Material& material, int slot) const;
+    void present(std::size_t picture, const Material& material, std::uint64_t opened_now);
+    Scene scene(std::size_t picture, const Camera& camera, const View& view) const;
+    bool drawable(std::size_t picture) const;
     void report(const Document& document);
     bool run_uploads();
 };
@@ -133,35 +130,61 @@ std::string map_key(const std::string& versioned_file, const MapRequest& request
 }
 }  // namespace
 
-void Reconciler::State::want(const Document& document) {
+void Reconciler::State::want(std::size_t picture, const WantedPicture& wanted) {
     for (int i = 0; i < kMapSlots; ++i) {
-        const MapRequest request = map_request(document.material, MapSlot(i));
-        maps.want(i, request.file.empty() ? std::string{} : map_key(versioned(request.file), request));
+        const MapRequest request = map_request(wanted.material, MapSlot(i));
+        const std::string key =
+            request.file.empty() ? std::string{} : map_key(versioned(request.file), request);
+        maps.want(map_slot(picture, i), key);
+        if (!key.empty()) map_requests[key] = request;
     }
-    const bool tangents = !document.material.normal.map.empty();
-    meshes.want(0, versioned(document.mesh) + (tangents ? " t" : ""));
-    light_orders.clear();
-    environments.want(0, light_key(document.environment, needed_by(document)));
+    const bool tangents = !wanted.material.normal.map.empty();
+    meshes.want(picture, versioned(wanted.mesh) + (tangents ? " t" : ""));
+}
+
+void Reconciler::State::want_nothing(std::size_t picture) {
+    for (int i = 0; i < kMapSlots; ++i) maps.want(map_slot(picture, i), {});
+    meshes.want(picture, {});
+    environments.want(picture, {});
+    pictures[picture] = {};
 }
 
 /// Not known before the maps are there that tell it.
-std::optional<NeededLight> Reconciler::State::needed_by(const Document& document) const {
+std::optional<NeededLight> Reconciler::State::needed_by(std::size_t picture,
+                                                        const WantedPicture& wanted) const {
     if (!options.skip) return all_light();
     MapRanges ranges;
     for (const MapSlot slot : {MapSlot::Roughness, MapSlot::Metallic, MapSlot::Normal}) {
-        const auto& [keys, value, error] = maps.slot(std::size_t(slot));
+        const auto& [keys, value, error] = maps.slot(map_slot(picture, int(slot)));
         if (keys.wanted.empty()) continue;
         if (!keys.ready()) return std::nullopt;
         ranges[std::size_t(slot)] = keys.wanted == keys.shown && value ? value->ranges : ChannelRanges{};
     }
-    return needed_light(document.material, ranges, document.view);
+    return needed_light(wanted.material, ranges, wanted.view);
+}
+
+/// Pictures under one environment want one light, which has what any of them looks up.
+void Reconciler::State::want_light(std::span<const WantedPicture* const> wanted) {
+    std::map<std::string, std::optional<NeededLight>> needed;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        std::optional<NeededLight>& all = needed[wanted[i]->environment];
+        const std::optional<NeededLight> own = needed_by(i, *wanted[i]);
+        if (own) all = all ? combined(*all, *own) : own;
+    }
+    light_orders.clear();
+    std::map<std::string, std::string> keys;
+    for (const auto& [environment, all] : needed) keys[environment] = light_key(environment, all);
+    for (std::size_t i = 0; i < wanted.size(); ++i) environments.want(i, keys[wanted[i]->environment]);
 }
 
 std::string Reconciler::State::light_key(const std::string& environment,
                                          const std::optional<NeededLight>& needed) {
     const std::string base = versioned(environment);
-    const std::string& loading = environments.slot(0).keys.loading;
-    if (base_of(loading) == base) return loading;  // what a slider passed meanwhile is found when it is there
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        const std::string& loading = environments.slot(i).keys.loading;
+        if (base_of(loading) == base)
+            return loading;  // what a slider passed meanwhile is found when it is there
+    }
     std::vector<LightAtHand> at_hand;
     environments.visit([&](const std::string& key, const HeldEnvironment& held) {
         if (base_of(key) == base) at_hand.push_back({key, held.light, held.handle});
@@ -338,58 +361,71 @@ void Reconciler::State::take_light(const std::string& key, const ReadyLight& lig
     for (const std::string& each : less) environments.forget(each);
 }
 
-void Reconciler::State::start_missing(const Document& document) {
+void Reconciler::State::start_missing() {
     const auto stop = [this](Jobs::Id id) { jobs.stop(id); };
     counts.environments_from_memory +=
         environments.update([this](const std::string& key) { return start_environment(key); }, stop);
     counts.meshes_from_memory +=
         meshes.update([this](const std::string& key) { return start_mesh(key); }, stop);
-    counts.maps_from_memory += maps.update(
-        [&](const std::string& key) {
-            int slot = 0;
-            while (maps.slot(slot).keys.wanted != key) ++slot;
-            return start_map(key, map_request(document.material, MapSlot(slot)));
-        },
-        stop);
+    counts.maps_from_memory +=
+        maps.update([this](const std::string& key) { return start_map(key, map_requests.at(key)); }, stop);
 }
 
-bool Reconciler::State::slot_ready(const Document& document, int slot) const {
-    if (!maps.slot(slot).keys.ready()) return false;
+bool Reconciler::State::slot_ready(std::size_t picture, const Material& material, int slot) const {
+    if (!maps.slot(map_slot(picture, slot)).keys.ready()) return false;
     // A normal map is shaded along tangents: it waits for a mesh that has them.
-    const bool needs_tangents = MapSlot(slot) == MapSlot::Normal && !document.material.normal.map.empty();
-    return !needs_tangents || meshes.slot(0).keys.ready() || wants_tangents(meshes.slot(0).keys.shown);
+    const bool needs_tangents = MapSlot(slot) == MapSlot::Normal && !material.normal.map.empty();
+    const SlotKeys& mesh = meshes.slot(picture).keys;
+    return !needs_tangents || mesh.ready() || wants_tangents(mesh.shown);
 }
 
 /// Unless levels are being added to what is shown; other light takes longer, and the picture does not wait.
-bool Reconciler::State::light_ready() const {
-    const SlotKeys& keys = environments.slot(0).keys;
+bool Reconciler::State::light_ready(std::size_t picture) const {
+    const SlotKeys& keys = environments.slot(picture).keys;
     return keys.ready() || base_of(keys.wanted) != base_of(keys.shown);
 }
 
 /// The wanted map; the last good one of the same file while that is broken; else the placeholder.
-MapHandle Reconciler::State::handle_for(const Document& document, int slot) const {
-    const auto& [keys, value, error] = maps.slot(slot);
+MapHandle Reconciler::State::handle_for(std::size_t picture, const Material& material, int slot) const {
+    const auto& [keys, value, error] = maps.slot(map_slot(picture, slot));
     if (keys.wanted.empty()) return {};
     if (keys.wanted == keys.shown && value) return value->handle;
-    const bool same_file = value && id_of(keys.shown) == *map_of(document.material, MapSlot(slot)).map;
+    const bool same_file = value && id_of(keys.shown) == *map_of(material, MapSlot(slot)).map;
     return same_file ? value->handle : placeholder;
 }
 
-void Reconciler::State::present(const Document& document, std::uint64_t opened_now) {
+void Reconciler::State::present(std::size_t index, const Material& wanted, std::uint64_t opened_now) {
+    Picture& picture = pictures[index];
     std::array<bool, kMapSlots> ready;
-    for (int i = 0; i < kMapSlots; ++i) ready[i] = slot_ready(document, i);
-    const bool all = light_ready() && std::all_of(ready.begin(), ready.end(), [](bool each) { return each; });
-    if (!all && presented && opened_now != opened) return;  // another document: all of it or nothing
-    Material next = document.material;
+    for (int i = 0; i < kMapSlots; ++i) ready[i] = slot_ready(index, wanted, i);
+    const bool all =
+        light_ready(index) && std::all_of(ready.begin(), ready.end(), [](bool each) { return each; });
+    if (!all && picture.presented && opened_now != picture.opened)
+        return;  // another document: all or nothing
+    Material next = wanted;
     for (int i = 0; i < kMapSlots; ++i) {
         if (ready[i])
-            handles[i] = handle_for(document, i);
+            picture.handles[i] = handle_for(index, wanted, i);
         else
-            copy_slot(material, next, MapSlot(i));
+            copy_slot(picture.material, next, MapSlot(i));
     }
-    material = std::move(next);
-    presented = true;
-    opened = opened_now;
+    picture.material = std::move(next);
+    picture.presented = true;
+    picture.opened = opened_now;
+}
+
+Scene Reconciler::State::scene(std::size_t picture, const Camera& camera, const View& view) const {
+    Scene scene{.maps = pictures[picture].handles,
+                .material = pictures[picture].material,
+                .camera = camera,
+                .view = view};
+    if (const auto& light = environments.slot(picture).value) scene.environment = light->handle;
+    if (const auto& mesh = meshes.slot(picture).value) scene.mesh = mesh->handle;
+    return scene;
+}
+
+bool Reconciler::State::drawable(std::size_t picture) const {
+    return environments.slot(picture).value && meshes.slot(picture).value && pictures[picture].presented;
 }
 
 void Reconciler::State::report(const Document& document) {
@@ -431,9 +467,9 @@ Reconciler::Reconciler(Renderer& renderer, const Registry& registry, Jobs& jobs,
                        .registry = registry,
                        .jobs = jobs,
                        .options = options,
-                       .maps = {kMapSlots, options.map_bytes},
-                       .meshes = {1, options.mesh_bytes},
-                       .environments = {1, options.environment_bytes}}) {
+                       .maps = {kMapSlots * (1 + kMaxFurtherPictures), options.map_bytes},
+                       .meshes = {1 + kMaxFurtherPictures, options.mesh_bytes},
+                       .environments = {1 + kMaxFurtherPictures, options.environment_bytes}}) {
     const Image picture = make_placeholder_map();
     state_->placeholder = renderer.upload_map(make_map_levels(picture, MapKind::Color, ColorSpace::Srgb));
     state_->placeholder_thumbnail = renderer.upload_thumbnail(picture);
@@ -441,24 +477,42 @@ Reconciler::Reconciler(Renderer& renderer, const Registry& registry, Jobs& jobs,
 
 Reconciler::~Reconciler() = default;
 
-bool Reconciler::update(const Document& document, std::uint64_t opened) {
+bool Reconciler::update(const Document& document, std::uint64_t opened,
+                        std::span<const WantedPicture> further) {
     const bool more = state_->run_uploads();
-    state_->want(document);
-    state_->start_missing(document);
-    state_->present(document, opened);
+    const std::size_t count = std::min(further.size(), kMaxFurtherPictures);
+    state_->map_requests.clear();
+    const WantedPicture own{document.material, document.mesh, document.environment, document.view};
+    std::vector<const WantedPicture*> wanted{&own};
+    for (std::size_t i = 0; i < count; ++i) wanted.push_back(&further[i]);
+    for (std::size_t i = 0; i < 1 + kMaxFurtherPictures; ++i)
+        i < wanted.size() ? state_->want(i, *wanted[i]) : state_->want_nothing(i);
+    state_->want_light(wanted);
+    state_->start_missing();
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        state_->present(i, wanted[i]->material, i == 0 ? opened : 0);
     state_->report(document);
     return more;
 }
 
 Scene Reconciler::scene(const Camera& camera, const View& view) const {
-    Scene scene{.maps = state_->handles, .material = state_->material, .camera = camera, .view = view};
-    if (const auto& light = state_->environments.slot(0).value) scene.environment = light->handle;
-    if (const auto& mesh = state_->meshes.slot(0).value) scene.mesh = mesh->handle;
-    return scene;
+    return state_->scene(0, camera, view);
 }
+bool Reconciler::drawable() const { return state_->drawable(0); }
+Scene Reconciler::scene_of(std::size_t further, const Camera& camera, const View& view) const {
+    return state_->scene(1 + further, camera, view);
+}
+bool Reconciler::drawable(std::size_t further) const { return state_->drawable(1 + further); }
 
-bool Reconciler::drawable() const {
-    return state_->environments.slot(0).value && state_->meshes.slot(0).value && state_->presented;
+std::string Reconciler::error_of(std::size_t further) const {
+    const auto failure = [](const auto& slot) {
+        return !slot.keys.wanted.empty() && slot.keys.wanted == slot.keys.failed ? slot.error : std::string{};
+    };
+    std::string error = failure(state_->environments.slot(1 + further));
+    if (error.empty()) error = failure(state_->meshes.slot(1 + further));
+    for (int i = 0; i < kMapSlots && error.empty(); ++i)
+        error = failure(state_->maps.slot(State::map_slot(1 + further, i)));
+    return error;
 }
 
 bool Reconciler::pending() const {

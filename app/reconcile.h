@@ -17,6 +17,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,14 @@ struct ReconcileCounts {
     int meshes_loaded = 0, meshes_from_memory = 0;
 };
 
+/// What one picture is made of. The document's is the first; a sheet of views has more.
+struct WantedPicture {
+    Material material;  ///< maps by full path
+    std::string mesh, environment;
+    View view;  ///< decides what of the light is looked up
+};
+inline constexpr std::size_t kMaxFurtherPictures = 16;
+
 class Reconciler {
 public:
     Reconciler(Renderer& renderer, const Registry& registry, Jobs& jobs, ReconcileOptions options);
@@ -50,12 +59,17 @@ public:
 
     /// Compares and starts; also does a share of the waiting uploads. opened counts documents opened: while
     /// another one's maps load, the whole old picture stays. True if there is more to upload: call again
-    /// soon.
-    bool update(const Document& document, std::uint64_t opened);
+    /// soon. further: beside the document's picture, at most kMaxFurtherPictures; they share what they have
+    /// in common.
+    bool update(const Document& document, std::uint64_t opened, std::span<const WantedPicture> further = {});
 
     /// The last complete picture. Without light and mesh yet (the very first moments) nothing can be drawn.
     Scene scene(const Camera& camera, const View& view) const;
     bool drawable() const;
+    /// Likewise of a further picture; what is broken there says why.
+    Scene scene_of(std::size_t further, const Camera& camera, const View& view) const;
+    bool drawable(std::size_t further) const;
+    std::string error_of(std::size_t further) const;
     bool pending() const;  ///< something wanted is not shown yet and has not failed
 
     const std::array<ui::MapStatus, kMapSlots>& maps() const;

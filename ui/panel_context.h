@@ -7,6 +7,7 @@
 
 #include "materials/material.h"
 #include "renderer/core/camera.h"
+#include "renderer/core/comparison.h"
 #include "renderer/core/view.h"
 #include "ui/recorder.h"
 #include "ui/requests.h"
@@ -141,6 +142,7 @@ struct ImportSheet {
 // ---- the file browser ----
 
 enum class BrowserPurpose {
+    // In the order of the browser's own table.
     OpenPreset,
     SavePreset,
     AssignMap,
@@ -148,7 +150,11 @@ enum class BrowserPurpose {
     ImportFolder,
     OpenEnvironment,
     OpenMesh,
-    ExportRender
+    ExportRender,
+    OpenComparison,
+    SaveComparison,
+    ChoosePhoto,
+    ExportReport
 };
 struct BrowserEntry {
     std::string name;
@@ -214,7 +220,10 @@ struct UiState {
     glm::vec3 emission_color{1.0f};  ///< of a black emission, so that its strength can be raised again
     bool rotating_light = false;     ///< the viewport drag under way turns the light
     bool viewport_drag = false;
-    bool viewport_used = false;  ///< the artist knows how to turn the object: no hint
+    int sheet_selected = 0;       ///< which view of the sheet the panels edit
+    int sheet_enlarged = -1;      ///< the view that fills the sheet; < 0: all are seen
+    bool sheet_turn_all = false;  ///< turning the light turns that of every view
+    bool viewport_used = false;   ///< the artist knows how to turn the object: no hint
 };
 
 struct Drop {
@@ -227,11 +236,25 @@ struct Viewport {
     bool bottom_up = true;  ///< its first row is the bottom (OpenGL)
 };
 
+/// One view of the sheet, in the order of places_of().
+struct SheetCell {
+    TextureId texture = 0;
+    std::string preset, light;  ///< titles
+    std::string error;          ///< one sentence: what of it could not be had
+};
+/// A view of the sheet that is seen, and the framebuffer pixels its picture should have.
+struct SheetSize {
+    int view = 0;
+    glm::ivec2 size_px{0};
+};
+
 /// What the app needs to know after a frame.
 struct WorkspaceResult {
     glm::ivec2 viewport_size_px{0};  ///< framebuffer pixels the picture should have; 0×0: hidden
     bool viewport_active = false;    ///< orbiting, panning or turning the light
     bool item_active = false;        ///< a slider or text field is held: an undo step is not finished
+    std::vector<SheetSize> sheet;    ///< while the sheet is shown
+    bool turn_all_lights = false;    ///< a turn of the light in this frame is meant for all views
     bool wants_redraw = false;       ///< something moves by itself: draw another frame soon
 };
 
@@ -259,6 +282,12 @@ struct PanelContext {
     const EnvironmentInfo& environment_info;
     const std::vector<Panel>& panels;  ///< builtin_panels() and whatever the registry adds
     Viewport viewport;
+    /// Views side by side instead of the one viewport; view, environment and mesh above are then those of the
+    /// selected view. Texts are edited in place, views come and go by requests. nullptr: none is shown.
+    Comparison* sheet = nullptr;
+    std::vector<SheetCell> sheet_cells;
+    std::string sheet_file;  ///< empty: never saved
+    bool sheet_unsaved = false;
     const UnsavedQuestion* unsaved = nullptr;
     const RecoveryQuestion* recovery = nullptr;
     const Drop* drop = nullptr;  ///< dropped since the last frame; panels turn it into request::Dropped

@@ -85,6 +85,28 @@ struct ExportRender {
     int width = 0;
     int height = 0;
 };
+// Views side by side.
+struct ShowSheet {
+    bool shown = true;  ///< without a sheet of before, one of two lights is made
+};
+enum class SheetChange { AddLight, AddPreset, Duplicate, Remove, ShowEdited, RemovePhoto };
+struct ChangeSheet {
+    SheetChange change = SheetChange::AddLight;
+    int view = 0;  ///< at which
+};
+struct OpenSheet {
+    std::string file;
+};
+struct SaveSheet {};  ///< to its file; without one the app opens the browser
+struct SaveSheetAs {
+    std::string file;
+};
+struct SetPhoto {  ///< of the selected view's light
+    std::string file;
+};
+struct ExportReport {
+    std::string file;  ///< .html or .pdf
+};
 struct CancelJob {
     std::uint64_t id = 0;
 };
@@ -108,8 +130,10 @@ using Request =
                  request::ClearRecent, request::AssignMap, request::ClearMap, request::ReloadMap,
                  request::LocateMap, request::Reveal, request::Dropped, request::ImportMaps,
                  request::ApplyImport, request::CancelImport, request::LoadEnvironment, request::LoadMesh,
-                 request::ExportRender, request::CancelJob, request::ClearLog, request::CopyText,
-                 request::ListFolder, request::MakeFolder>;
+                 request::ExportRender, request::ShowSheet, request::ChangeSheet, request::OpenSheet,
+                 request::SaveSheet, request::SaveSheetAs, request::SetPhoto, request::ExportReport,
+                 request::CancelJob, request::ClearLog, request::CopyText, request::ListFolder,
+                 request::MakeFolder>;
 using Requests = std::vector<Request>;
 
 /// The first request of type T, or nullptr.
