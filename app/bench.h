@@ -39,6 +39,8 @@ std::vector<double> interleaved_medians_ms(const std::vector<std::function<void(
 nlohmann::ordered_json bench_frame(const BenchContext& context);
 /// Cost of light: decoding, baking, reading it back from the disk cache.
 nlohmann::ordered_json bench_light(const BenchContext& context);
+/// Views side by side against one view of the same area.
+nlohmann::ordered_json bench_views(const BenchContext& context);
 /// Prefiltering: run time against error, method by method.
 nlohmann::ordered_json bench_ibl(const BenchContext& context);
 /// Properties on random cases: the worst of each against its tolerance.

@@ -96,6 +96,7 @@ private:
         TargetHandle target;
         Drawn drawn;
         bool has_drawn = false;
+        std::uint64_t times = 0;  ///< drawn so far
     };
     TargetHandle target_;
     Drawn drawn_;
@@ -238,6 +239,7 @@ void Loop::draw_sheet(const std::vector<ui::SheetSize>& seen) {
         renderer_.draw(scene, *shown.target);
         shown.drawn = std::move(wanted);
         shown.has_drawn = true;
+        ++shown.times;
         ++views_;
     }
 }
@@ -258,6 +260,7 @@ void Loop::fill_sheet(ui::PanelContext& context) const {
         if (cell.error.empty()) cell.error = editor_.reconciler.error_of(view);
         if (view < sheet_views_.size() && sheet_views_[view].has_drawn)
             cell.texture = Renderer::display_texture(*sheet_views_[view].target);
+        fill_photo(editor_, view, cell);
         context.sheet_cells.push_back(std::move(cell));
     }
     context.sheet_file = path_to_utf8(editor_.sheet.file);
@@ -371,6 +374,11 @@ void Loop::after_frame(const ui::PanelContext& context) {
     update_reconciler();
     draw_view(context.result.viewport_size_px);
     draw_sheet(context.result.sheet);
+    for (const int seen : sheet_seen_) {
+        const DrawnView& shown = sheet_views_[std::size_t(seen)];
+        update_photo(editor_,
+                     {std::size_t(seen), shown.has_drawn ? shown.target.get() : nullptr, shown.times});
+    }
     animating_ = context.result.wants_redraw;
     if (editor_.clipboard) window_.set_clipboard(*std::exchange(editor_.clipboard, std::nullopt));
 }

@@ -136,6 +136,7 @@ void carry_out(Editor& editor, const ui::Requests& requests) {
         [&](const ask_for::SaveSheet&) { save_sheet(editor); },
         [&](const ask_for::SaveSheetAs& r) { save_sheet_as(editor, r.file); },
         [&](const ask_for::SetPhoto& r) { set_photo(editor, r.file); },
+        [&](const ask_for::PickCard& r) { pick_card(editor, r); },
         [&](const ask_for::ExportReport& r) { export_report(editor, r.file); },
         [&](const ask_for::CancelJob& r) { cancel_job(editor, r.id); },
         [&](const ask_for::ClearLog&) { editor.status.log.clear(); },

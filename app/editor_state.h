@@ -4,6 +4,7 @@
 
 #include "app/autosave.h"
 #include "app/document.h"
+#include "app/editor_photo.h"
 #include "app/editor_sheet.h"
 #include "app/jobs.h"
 #include "app/reconcile.h"
@@ -47,6 +48,7 @@ struct Editor {
     Reconciler reconciler;
     Thumbnails thumbnails;
     EditorSheet sheet;
+    EditorPhotos photos;
 
     // The interface's side.
     ui::UiState ui;

@@ -191,6 +191,9 @@ struct FileBrowser {
 
 // ---- the interface's own state, nothing of the document ----
 
+/// What the mouse does on the selected view's photo.
+enum class PhotoTool { None, Fit, GreyCard, WhitePaper, Region };
+
 /// The slider bar that is held: where its drag began.
 struct BarDrag {
     float from_x = 0.0f;
@@ -223,6 +226,11 @@ struct UiState {
     int sheet_selected = 0;       ///< which view of the sheet the panels edit
     int sheet_enlarged = -1;      ///< the view that fills the sheet; < 0: all are seen
     bool sheet_turn_all = false;  ///< turning the light turns that of every view
+    PhotoTool photo_tool = PhotoTool::None;
+    bool photo_heat = false;      ///< the difference instead of the photo
+    bool photo_held = false;      ///< a point or rectangle is being dragged in this frame
+    float photo_wipe = 0.0f;      ///< where the photo begins, from the view's left, 0…1
+    glm::vec2 region_from{0.0f};  ///< where the rectangle under the mouse began
     bool viewport_used = false;   ///< the artist knows how to turn the object: no hint
 };
 
@@ -241,6 +249,13 @@ struct SheetCell {
     TextureId texture = 0;
     std::string preset, light;  ///< titles
     std::string error;          ///< one sentence: what of it could not be had
+    TextureId photo =
+        0;  ///< in the view's frame, its coverage as alpha; first row at the top, as the next two
+    TextureId photo_raw = 0;  ///< the whole photo
+    TextureId heat = 0;       ///< the difference
+    glm::ivec2 photo_px{0};   ///< size of the photo; 0: not read yet
+    std::string photo_about;  ///< camera and exposure
+    std::string residual;     ///< "ΔE 3.2 · light +4 %"
 };
 /// A view of the sheet that is seen, and the framebuffer pixels its picture should have.
 struct SheetSize {

@@ -1,6 +1,7 @@
 // The inspector's page of the comparison: its texts, the selected view, and what can be made of it.
 #include "ui/icons.h"
 #include "ui/panels.h"
+#include "ui/photo_overlay.h"
 #include "ui/shortcuts.h"
 #include "ui/values.h"
 #include "ui/widgets.h"
@@ -86,6 +87,8 @@ void draw_sheet_panel(PanelContext& context) {
     if (!context.sheet) return draw_start(context);
     draw_texts(context);
     draw_selected(context);
+    if (std::size_t(context.ui.sheet_selected) < context.sheet_cells.size())
+        draw_photo_rows(context, context.ui.sheet_selected);
     draw_files(context);
 }
 

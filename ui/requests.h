@@ -7,6 +7,8 @@
 
 #include "materials/material.h"
 
+#include <glm/vec2.hpp>
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -104,6 +106,11 @@ struct SaveSheetAs {
 struct SetPhoto {  ///< of the selected view's light
     std::string file;
 };
+struct PickCard {  ///< a card's colour sets exposure and white balance of that view's photo
+    int view = 0;
+    glm::vec2 point{0.0f};  ///< fraction of the photo
+    bool white = false;     ///< white paper instead of an 18 % grey card
+};
 struct ExportReport {
     std::string file;  ///< .html or .pdf
 };
@@ -131,9 +138,9 @@ using Request =
                  request::LocateMap, request::Reveal, request::Dropped, request::ImportMaps,
                  request::ApplyImport, request::CancelImport, request::LoadEnvironment, request::LoadMesh,
                  request::ExportRender, request::ShowSheet, request::ChangeSheet, request::OpenSheet,
-                 request::SaveSheet, request::SaveSheetAs, request::SetPhoto, request::ExportReport,
-                 request::CancelJob, request::ClearLog, request::CopyText, request::ListFolder,
-                 request::MakeFolder>;
+                 request::SaveSheet, request::SaveSheetAs, request::SetPhoto, request::PickCard,
+                 request::ExportReport, request::CancelJob, request::ClearLog, request::CopyText,
+                 request::ListFolder, request::MakeFolder>;
 using Requests = std::vector<Request>;
 
 /// The first request of type T, or nullptr.

@@ -2,6 +2,7 @@
 // view through the context as the viewport does.
 #include "ui/icons.h"
 #include "ui/panels.h"
+#include "ui/photo_overlay.h"
 #include "ui/viewport_parts.h"
 #include "ui/widgets.h"
 #include "ui/workspace.h"
@@ -58,7 +59,8 @@ void draw_cell_labels(PanelContext& context, const SheetCell& cell, const Rect& 
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->PushClipRect({rect.x0, rect.y0}, {rect.x1, rect.y1}, true);
     ImGui::PushFont(font_of(Face::Small));
-    draw_chip({rect.x0 + px(8), rect.y0 + px(8)}, cell.preset + "  ·  " + cell.light);
+    draw_chip({rect.x0 + px(8), rect.y0 + px(8)},
+              cell.preset + "  ·  " + cell.light + (cell.residual.empty() ? "" : "  ·  " + cell.residual));
     if (selected && context.ui.rotating_light) {
         const int degrees = static_cast<int>(std::lround(context.view.env_rotation_deg));
         draw_chip(
@@ -76,6 +78,7 @@ void draw_cell(PanelContext& context, int view, const Rect& rect) {
     const SheetCell& cell = context.sheet_cells[std::size_t(view)];
     UiState& ui = context.ui;
     ImGui::PushID(view);
+    use_photo_tool(context, view, rect);  // its points take the mouse before the view does
     ImGui::SetCursorScreenPos({rect.x0, rect.y0});
     ImGui::InvisibleButton("##view", {std::max(1.0f, rect.width()), std::max(1.0f, rect.height())},
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
@@ -83,18 +86,22 @@ void draw_cell(PanelContext& context, int view, const Rect& rect) {
     record(context, "sheet.view." + std::to_string(view + 1));
     if (ImGui::IsItemActivated()) ui.sheet_selected = view;
     const bool selected = ui.sheet_selected == view;
-    if (selected || ImGui::IsItemHovered()) {
+    const bool tool = photo_tool_active(context, view);
+    if (tool) {
+        handle_photo_mouse(context, view, rect);
+    } else if (selected || ImGui::IsItemHovered()) {
         const bool held = ImGui::IsItemActive();
         if (held || ImGui::IsItemHovered()) handle_view_mouse(context, rect);
         context.result.viewport_active |= held && ui.viewport_drag;
     }
-    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+    if (!tool && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
         ui.sheet_enlarged = ui.sheet_enlarged == view ? -1 : view;
     const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
     context.result.sheet.push_back({view,
                                     {std::max(1, int(std::lround(rect.width() * pixels.x))),
                                      std::max(1, int(std::lround(rect.height() * pixels.y)))}});
     draw_cell_picture(cell, rect, context);
+    draw_photo(context, view, rect);
     draw_cell_labels(context, cell, rect, selected && context.sheet_cells.size() > 1);
     ImGui::PopID();
 }
@@ -147,6 +154,7 @@ void draw_bar(PanelContext& context) {
 void draw_sheet(PanelContext& context, const Rect& rect) {
     UiState& ui = context.ui;
     const int views = int(context.sheet_cells.size());
+    ui.photo_held = false;
     ui.sheet_selected = std::clamp(ui.sheet_selected, 0, std::max(0, views - 1));
     if (ui.sheet_enlarged >= views) ui.sheet_enlarged = -1;
     context.result.turn_all_lights = ui.sheet_turn_all || ImGui::GetIO().KeyAlt;

@@ -1,5 +1,6 @@
 // Views side by side as a person meets them: built, turned, undone, saved, opened again.
 #include "app/comparison_file.h"
+#include "renderer/core/color_difference.h"
 #include "tests/ui/editor_harness.h"
 #include "tests/ui/panels_stage.h"
 
@@ -98,6 +99,60 @@ wait idle
 expect log~none.json
 expect views>1
 )"));
+}
+
+TEST(EditorSheet, a_photo_is_balanced_by_a_card_fitted_by_points_and_saved) {
+    const Folder home;
+    write_picture(home / "shot.png", 118, 118, 100);
+    EXPECT_DRIVEN(drive(home, R"(
+wait idle
+key c
+wait idle
+click sheet.view.1
+click compare.photo.choose
+wait until item browser.entry.shot.png
+click browser.entry.shot.png
+click browser.confirm
+wait idle
+expect photo_opacity=1
+expect photo_exposure=0
+expect photo_delta_e>0
+click compare.photo.grey
+wait idle
+click sheet.view.1          # the photo lies in the middle of the view
+wait idle
+expect photo_exposure!=0
+expect status~card
+click compare.photo.fit
+wait idle
+drag sheet.point.1 -12 -8
+wait idle
+click compare.photo.fit
+wait idle
+expect no item sheet.point.1
+expect undo~Photo
+click compare.photo.region
+wait idle
+drag sheet.view.1 40 40
+wait idle
+click compare.save
+wait until item browser.file_name
+click browser.confirm
+wait until sheet_file~comparison.json
+wait idle
+)"));
+    const Comparison saved = load_comparison(home / "comparison.json").comparison;
+    ASSERT_TRUE(saved.columns[0].photo);
+    const Photo& photo = *saved.columns[0].photo;
+    EXPECT_EQ(photo.file, (home / "shot.png").lexically_normal().string());
+    EXPECT_NEAR(luminance(photo.white_balance), 1.0f, 0.02f) << "exposure alone carries the brightness";
+    EXPECT_GT(photo.white_balance.z, photo.white_balance.x) << "the card was yellowish";
+    ASSERT_TRUE(photo.fit);
+    EXPECT_LT(photo.fit->photo[0].x, 0.2f);
+    EXPECT_FLOAT_EQ(photo.fit->photo[2].x, 0.8f);
+    ASSERT_TRUE(photo.region);
+    EXPECT_LT(photo.region->x0, photo.region->x1);
+    EXPECT_FALSE(saved.columns[1].photo);
 }
 
 // ---- the panels alone ----
