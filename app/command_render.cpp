@@ -72,7 +72,7 @@ std::vector<Shot> missing_shots(const RenderArgs& args, const fs::path& output) 
     return shots;
 }
 
-ImageMetadata described(const std::string& what, const std::string& made_from) {
+ImageMetadata described_with(const std::string& what, const std::string& made_from) {
     ImageMetadata metadata = described(what);
     if (!made_from.empty()) metadata.emplace_back(kMadeFromKey, made_from);
     return metadata;
@@ -92,9 +92,9 @@ void render_shots(const RenderArgs& args, const Registry& registry, const fs::pa
         scene.camera = shots[i].scene.camera;
         scene.view = shots[i].scene.view;
         const Image image = studio.picture(scene, *target, output.extension() == ".exr");
-        exporter.save(
-            shots[i].file, image,
-            described(scene.material.name + " under " + args.scene.environments.front(), shots[i].made_from));
+        exporter.save(shots[i].file, image,
+                      described_with(scene.material.name + " under " + args.scene.environments.front(),
+                                     shots[i].made_from));
     }
 }
 
@@ -141,7 +141,7 @@ int compare_file(const RenderArgs& args, const Registry& registry) {
         studio, registry, loaded.comparison,
         {.cell_px = args.scene.size_px, .radiance = wants_radiance(args.output), .scene = args.scene});
     studio.progress.clear();
-    exporter.save(path_from_utf8(args.output), sheet, described(loaded.comparison.title, made));
+    exporter.save(path_from_utf8(args.output), sheet, described_with(loaded.comparison.title, made));
     say("wrote " + args.output);
     return 0;
 }
@@ -177,7 +177,7 @@ int run_compare(const RenderArgs& args, const Registry& registry) {
     }
     studio.progress.clear();
     exporter.save(path_from_utf8(args.output), sheet.image(),
-                  described("Presets under several lightings", made));
+                  described_with("Presets under several lightings", made));
     say("wrote " + args.output);
     return 0;
 }
