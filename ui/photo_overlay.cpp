@@ -6,6 +6,7 @@
 #include "ui/widgets.h"
 #include "ui/workspace.h"
 
+#include <glm/common.hpp>
 #include <imgui.h>
 
 #include <algorithm>
