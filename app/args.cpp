@@ -114,6 +114,8 @@ void add_scene(CLI::App& app, SceneOptions& scene) {
     add_size(app, "--size", scene.size_px, "Size of a picture in pixels (default 512x512)");
     add_camera(app, scene.camera);
     add_named(app, "--shading", kShadings, scene.view.shading, "How light is computed");
+    add_named(app, "--quality", kQualities, scene.view.quality,
+              "How closely fitted shading follows the integral");
     add_named(app, "--tonemap", kTonemaps, scene.view.tonemap, "How radiance becomes a picture (PNG only)");
     add_named(app, "--background", kBackgrounds, scene.view.background, "What is seen behind the object");
     add_named(app, "--debug-view", kDebugViews, scene.view.debug,
@@ -124,6 +126,11 @@ void add_scene(CLI::App& app, SceneOptions& scene) {
     add_no_skip(app, scene.skip);
 }
 
+void add_stats(CLI::App& app, std::string& file) {
+    app.add_option("--stats", file, "Write what was computed, and what was skipped and why, as JSON")
+        ->type_name("FILE");
+}
+
 void add_edit(CLI::App& root, Args& args) {
     CLI::App* app = root.add_subcommand("edit", "Open the editor (the default)");
     app->add_option("preset", args.edit.preset, "A preset to open")->type_name("PRESET");
@@ -132,6 +139,7 @@ void add_edit(CLI::App& root, Args& args) {
         ->type_name("ID|FILE");
     add_size(*app, "--window", args.edit.window_px, "Size of the window in pixels");
     add_no_skip(*app, args.edit.skip);
+    add_stats(*app, args.edit.stats);
     app->add_option("--drive", args.edit.drive_script, "Play a script of clicks and keys, then quit")
         ->type_name("FILE");
 }
@@ -173,6 +181,11 @@ void add_render_and_compare(CLI::App& root, Args& args) {
             ->required()
             ->type_name("FILE");
         add_scene(*app, args.render.scene);
+        app->add_option("--samples", args.render.scene.samples,
+                        "Points a pixel of --shading reference (default 1024)")
+            ->check(CLI::Range(1, 1 << 24))
+            ->type_name("N");
+        add_stats(*app, args.render.stats);
     }
 }
 
@@ -212,6 +225,7 @@ void add_bake(CLI::App& root, Args& args) {
            },
            "Exactly these roughness values instead of the standard levels")
         ->type_name("R,R,...");
+    add_stats(*app, args.bake.stats);
     app->add_flag("--keep-lights", args.bake.keep_lights,
                   "Fold lights that were taken out back into the levels");
     app->add_option(

@@ -21,6 +21,7 @@ struct SceneOptions {
     View view;
     Camera camera;
     glm::ivec2 size_px{512, 512};
+    int samples = 1024;                                          ///< points a pixel of the reference
     std::vector<std::pair<std::string, std::string>> overrides;  ///< --set key=value, in order
     bool allow_missing_maps = false;                             ///< draw the placeholder instead of failing
     bool skip = true;  ///< false: prepare what any picture could need, for comparison
@@ -33,6 +34,7 @@ struct EditArgs {
     std::string drive_script;
     glm::ivec2 window_px{0};  ///< 0: as last time
     bool skip = true;         ///< as in SceneOptions
+    std::string stats;        ///< file for the work ledger, written at the end; empty: none
 };
 struct RenderArgs {
     std::vector<std::string> presets;  ///< one for render; "-" is the default material
@@ -41,6 +43,7 @@ struct RenderArgs {
     int turntable = 0;        ///< > 0: so many pictures of a whole turn, numbered
     bool turn_light = false;  ///< the light goes round instead of the camera
     bool up_to_date = false;  ///< leave a picture alone that this very command would make again
+    std::string stats;        ///< file for the work ledger; empty: none is written
 };
 struct ReportArgs {
     std::string comparison;  ///< file
@@ -55,6 +58,7 @@ struct BakeArgs {
     std::vector<float> roughness;  ///< empty: the standard levels
     bool keep_lights = false;
     std::string format = "exr";
+    std::string stats;  ///< as in RenderArgs
 };
 struct BenchArgs {
     std::vector<std::string> names;         ///< empty: all

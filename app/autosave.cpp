@@ -1,6 +1,7 @@
 #include "app/autosave.h"
 
 #include "app/paths.h"
+#include "materials/json_text.h"
 #include "materials/material_io.h"
 
 #include <nlohmann/json.hpp>
@@ -23,6 +24,7 @@ Json view_to_json(const View& view) {
             {"background", named(kBackgrounds, view.background).id},
             {"plain_color", {view.plain_color.x, view.plain_color.y, view.plain_color.z}},
             {"shading", named(kShadings, view.shading).id},
+            {"quality", named(kQualities, view.quality).id},
             {"debug", named(kDebugViews, view.debug).id}};
 }
 
@@ -34,6 +36,7 @@ View view_from_json(const Json& json) {
     view.background =
         value_of(kBackgrounds, json.value("background", std::string{})).value_or(view.background);
     view.shading = value_of(kShadings, json.value("shading", std::string{})).value_or(view.shading);
+    view.quality = value_of(kQualities, json.value("quality", std::string{})).value_or(view.quality);
     view.debug = value_of(kDebugViews, json.value("debug", std::string{})).value_or(view.debug);
     const auto color = json.find("plain_color");
     if (color != json.end() && color->is_array() && color->size() == 3)
@@ -57,7 +60,8 @@ std::string to_json(const Recovery& recovery) {
 
 std::optional<Recovery> parse_recovery(std::string_view text) {
     try {
-        const Json json = Json::parse(text);
+        std::vector<std::string> repeated_keys;
+        const Json json = parse_json(text, "recovery file", repeated_keys);  // of bounded depth
         if (json.value("patina_recovery", 0) != kRecoveryVersion) return std::nullopt;
         Recovery recovery;
         recovery.file = path_from_utf8(json.value("file", std::string{}));

@@ -4,6 +4,7 @@
 #include "app/jobs.h"
 #include "app/paths.h"
 #include "app/scene_loader.h"
+#include "app/temporary_folder.h"
 #include "materials/material_io.h"
 
 #include <nlohmann/json.hpp>
@@ -31,22 +32,6 @@ double milliseconds(const std::function<void()>& action) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// A folder of our own that is gone afterwards.
-struct TemporaryFolder {
-    fs::path path;
-    TemporaryFolder() {
-        const auto stamp = std::chrono::steady_clock::now().time_since_epoch().count();
-        path = fs::temp_directory_path() / ("patina-bench-" + std::to_string(stamp));
-        fs::create_directories(path);
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-};
-
 struct FrameCase {
     std::string name;
     Scene scene;
@@ -62,14 +47,21 @@ std::vector<FrameCase> frame_cases(SceneLoader& loader, const std::string& envir
         cases.push_back({name, std::move(scene)});
     };
     options.view.background = Background::Plain;
+    options.view.shading = Shading::SplitSum;
+    options.size_px = {};  // drawn in several sizes: maps with all detail
     add("split-sum", "-");
     for (const auto& mode : kShadings) {
-        if (mode.value == Shading::SplitSum) continue;
+        if (mode.value == Shading::SplitSum || mode.value == Shading::Reference) continue;
         options.view.shading = mode.value;
         add(std::string(mode.id), "-");
     }
-    options.view.shading = Shading::SplitSum;
+    options.view.shading = Shading::Fitted;
+    options.view.quality = Quality::High;
+    add("fitted, high quality", "-");
+    options.view.quality = Quality::Standard;
     options.overrides = {{"roughness", "0.02"}};
+    add("fitted, near mirror", "-");
+    options.view.shading = Shading::SplitSum;
     add("split-sum, near mirror", "-");
     options.overrides.clear();
     for (const fs::path& preset : shipped_presets())
@@ -127,17 +119,19 @@ Json bench_frame(const BenchContext& context) {
 
 Json bench_light(const BenchContext& context) {
     const Jobs jobs(worker_count());
-    const TemporaryFolder folder;
-    const BakeCache cache{.folder = folder.path};
+    const TemporaryFolder folder("patina-bench");
+    const BakeCache cache{.folder = folder.path()};
     Json json{{"environments", Json::array()}};
     std::printf("%-36s %10s %10s %10s\n", "light (ms)", "load", "bake", "cached");
     for (const std::string& id : context.environments) {
         const Environment environment = load_environment(context.registry, id);
         const BakeControl control{.parallel_for = jobs.parallel_for()};
-        const std::string key = bake_key(environment, BakeSettings{});
+        const std::string key = bake_key(environment, drawing_bake_settings());
         const std::vector<double> ms = interleaved_medians_ms(
             {[&] { load_environment(context.registry, id); },
-             [&] { save_baked(cache, key, *bake_environment(environment, BakeSettings{}, control)); },
+             [&] {
+                 save_baked(cache, key, *bake_environment(environment, drawing_bake_settings(), control));
+             },
              [&] { load_baked(cache, key); }},
             context.repetitions());
         std::printf("%-36s %10.1f %10.1f %10.1f\n", utf8_from_path(path_from_utf8(id).filename()).c_str(),

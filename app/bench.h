@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -37,10 +38,14 @@ std::vector<double> interleaved_medians_ms(const std::vector<std::function<void(
 
 /// Cost of a frame by shading mode, features and size, on this machine's GL.
 nlohmann::ordered_json bench_frame(const BenchContext& context);
+/// Shading modes and their rivals: error against the reference, and cost of a frame relative to split sum.
+nlohmann::ordered_json bench_shading(const BenchContext& context);
 /// Cost of light: decoding, baking, reading it back from the disk cache.
 nlohmann::ordered_json bench_light(const BenchContext& context);
 /// Views side by side against one view of the same area.
 nlohmann::ordered_json bench_views(const BenchContext& context);
+/// The editor's start, cold and warm, against a bare window. Needs a display.
+nlohmann::ordered_json bench_start(const BenchContext& context);
 /// Prefiltering: run time against error, method by method.
 nlohmann::ordered_json bench_ibl(const BenchContext& context);
 /// Properties on random cases: the worst of each against its tolerance.

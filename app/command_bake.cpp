@@ -5,6 +5,7 @@
 #include "app/jobs.h"
 #include "app/ktx.h"
 #include "app/paths.h"
+#include "app/stats.h"
 #include "renderer/core/file_io.h"
 
 #include <nlohmann/json.hpp>
@@ -90,6 +91,7 @@ std::optional<BakedEnvironment> bake_as_asked(const Environment& environment, co
     if (args.format == "ktx") return bake_for_ktx(environment, args.size, control);
     BakeSettings settings;
     settings.max_face_size = args.size;
+    settings.extract_lights = !args.keep_lights;
     if (!args.roughness.empty()) settings.roughness = args.roughness;
     return bake_environment(environment, settings, control);
 }
@@ -122,6 +124,9 @@ int run_bake(const BakeArgs& args, const Registry& registry) {
     const std::string text = json.dump(2) + "\n";
     write_file(folder.path() / "bake.json", std::as_bytes(std::span(text)));
     folder.commit();
+    WorkLedger work{.environments_decoded = 1};
+    count_bake(work, *baked);
+    write_stats(args.stats, work);
     return 0;
 }
 

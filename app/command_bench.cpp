@@ -1,5 +1,6 @@
 // patina bench: runs benchmarks by name; tables on standard output, one JSON file each.
 #include "app/bench.h"
+#include "app/bench_markdown.h"
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/paths.h"
@@ -22,10 +23,12 @@ namespace {
 constexpr std::array kBenchmarks{
     Benchmark{"light", "decoding, baking and reading back environments", bench_light},
     Benchmark{"ibl", "prefiltering: run time against error, method by method", bench_ibl},
+    Benchmark{"shading", "shading modes: error against the integral, and cost", bench_shading},
     Benchmark{"frame", "one frame by shading mode, features and size", bench_frame},
     Benchmark{"stability", "properties on random cases, and errors against roughness and NoV",
               bench_stability},
     Benchmark{"views", "views side by side: a turn of the light in one and in nine", bench_views},
+    Benchmark{"start", "the editor's start against a bare window", bench_start},
 };
 
 std::vector<const Benchmark*> chosen(const std::vector<std::string>& names) {
@@ -66,6 +69,12 @@ int run_bench(const BenchArgs& args, const Registry& registry) {
         const std::filesystem::path file = folder / (std::string(benchmark->name) + ".json");
         write_file(file, std::as_bytes(std::span(text)));
         say("wrote " + utf8_from_path(file));
+        const std::string table = bench_markdown(benchmark->name, result);
+        if (!table.empty()) {
+            const std::filesystem::path page = folder / (std::string(benchmark->name) + ".md");
+            write_file(page, std::as_bytes(std::span(table)));
+            say("wrote " + utf8_from_path(page));
+        }
         for (const NamedPlot& each : bench_plots(benchmark->name, result))
             for (const std::filesystem::path& picture : save_plot(folder / each.stem, each.plot))
                 say("wrote " + utf8_from_path(picture));

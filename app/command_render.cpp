@@ -5,6 +5,7 @@
 #include "app/made_from.h"
 #include "app/paths.h"
 #include "app/sheet.h"
+#include "app/stats.h"
 #include "app/studio.h"
 #include "app/video.h"
 #include "renderer/core/angles.h"
@@ -96,6 +97,7 @@ void render_shots(const RenderArgs& args, const Registry& registry, const fs::pa
                       described_with(scene.material.name + " under " + args.scene.environments.front(),
                                      shots[i].made_from));
     }
+    write_stats(args.stats, studio.renderer.work());
 }
 
 void render_video(const RenderArgs& args, const Registry& registry) {
@@ -142,6 +144,7 @@ int compare_file(const RenderArgs& args, const Registry& registry) {
         {.cell_px = args.scene.size_px, .radiance = wants_radiance(args.output), .scene = args.scene});
     studio.progress.clear();
     exporter.save(path_from_utf8(args.output), sheet, described_with(loaded.comparison.title, made));
+    write_stats(args.stats, studio.renderer.work());
     say("wrote " + args.output);
     return 0;
 }
@@ -178,6 +181,7 @@ int run_compare(const RenderArgs& args, const Registry& registry) {
     studio.progress.clear();
     exporter.save(path_from_utf8(args.output), sheet.image(),
                   described_with("Presets under several lightings", made));
+    write_stats(args.stats, studio.renderer.work());
     say("wrote " + args.output);
     return 0;
 }

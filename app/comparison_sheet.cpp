@@ -196,6 +196,7 @@ Scene ComparisonScenes::scene(ViewPlace place) {
     SceneOptions options = options_;
     options.mesh = comparison_.mesh;
     options.camera = comparison_.camera;
+    options.size_px = {};  // drawn in several sizes: with all detail
     Scene scene = found != presets_.end()
                       ? found->second
                       : presets_.emplace(preset, loader_.scene(preset, options)).first->second;

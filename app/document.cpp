@@ -86,6 +86,7 @@ std::string describe_change(const Document& before, const Document& after) {
     if (a.exposure_ev != b.exposure_ev) changes.emplace_back("Exposure");
     if (a.tonemap != b.tonemap) changes.emplace_back("Tone mapping");
     if (a.background != b.background || a.plain_color != b.plain_color) changes.emplace_back("Background");
+    if (a.quality != b.quality) changes.emplace_back("Quality");
     if (a.shading != b.shading) changes.emplace_back("Shading");
     if (a.debug != b.debug) changes.emplace_back("View mode");
     if (before.sheet.has_value() != after.sheet.has_value()) changes.emplace_back("Comparison");

@@ -43,7 +43,7 @@ Material with_full_map_paths(const Material& as_written, const std::filesystem::
 Material with_preset_map_paths(const Material& material, const std::filesystem::path& preset,
                                const Material& before);
 
-/// A few words for the undo menu: "Roughness", "Environment", "Base colour map"; "3 values" when many differ;
+/// A few words for the undo menu: "Roughness", "Environment", "Albedo map"; "3 values" when many differ;
 /// empty if none does.
 std::string describe_change(const Document& before, const Document& after);
 

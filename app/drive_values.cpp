@@ -95,6 +95,9 @@ constexpr std::array kValues{
         "shading",
         [](const DriveView& v) { return std::string(named(kShadings, v.editor.document.view.shading).id); }},
     NamedValue{
+        "quality",
+        [](const DriveView& v) { return std::string(named(kQualities, v.editor.document.view.quality).id); }},
+    NamedValue{
         "tonemap",
         [](const DriveView& v) { return std::string(named(kTonemaps, v.editor.document.view.tonemap).id); }},
     NamedValue{

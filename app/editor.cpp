@@ -1,14 +1,18 @@
 #include "app/editor.h"
 
+#include "app/accuracy.h"
 #include "app/drive.h"
 #include "app/editor_state.h"
 #include "app/paths.h"
+#include "app/stats.h"
+#include "app/view_pace.h"
 #include "app/window.h"
 #include "materials/text_io.h"
 #include "renderer/core/image_io.h"
 #include "ui/workspace.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <ctime>
 #include <exception>
@@ -20,11 +24,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr int kSamples = 4;           ///< a pixel, of a good picture
 constexpr int kFramesAfterEvent = 3;  ///< the one that shows it, and two in which popups and layouts settle
 constexpr double kCaretSeconds = 0.3;
 constexpr double kAnimationSeconds = 1.0 / 60.0;
 
 BakeCache bake_cache() { return {.folder = cache_folder() / "ibl"}; }
+
+constexpr double kStillSeconds = 0.2;  ///< without a change before a quick picture is drawn again, well
 
 /// What the picture was drawn from: it is drawn again when any of this differs.
 struct Drawn {
@@ -73,6 +80,10 @@ private:
     bool sheet_is_stale() const;
     Scene sheet_scene(std::size_t view, glm::ivec2 size_px) const;
     bool update_reconciler();
+    bool wants_refining() const { return !editor_.document.sheet && has_drawn_ && shown_ != Pace::Good; }
+    Sight sight() const;
+    void measure_view(glm::ivec2 size_px, bool held);
+    void fill_viewport(ui::Viewport& viewport) const;
     void fill_status();
     void fill_thumbnails();
     void after_frame(const ui::PanelContext& context);
@@ -98,7 +109,14 @@ private:
         bool has_drawn = false;
         std::uint64_t times = 0;  ///< drawn so far
     };
-    TargetHandle target_;
+    AccuracyMeter meter_;
+    TargetHandle target_;  ///< what is shown, one of targets_
+    std::array<TargetHandle, kPaces> targets_;
+    glm::ivec2 size_px_{0};  ///< of the picture on the screen
+    ViewPace pace_;
+    Pace shown_ = Pace::Good;
+    double changed_s_ = 0.0;        ///< when the picture was last another one
+    std::optional<double> drew_s_;  ///< when this frame's picture was begun
     Drawn drawn_;
     bool has_drawn_ = false;
     std::vector<DrawnView> sheet_views_;  ///< by the sheet's views
@@ -112,6 +130,7 @@ private:
     std::vector<Jobs::Status> jobs_shown_;
     bool pending_shown_ = false;
     double last_frame_s_ = 0.0;
+    std::optional<ProcessMark> first_lit_frame_;
     std::string window_title_;
     std::optional<ui::Drop> drop_;
 };
@@ -136,7 +155,8 @@ Loop::Loop(const EditArgs& args, const Registry& registry)
       remembered_(load_settings(state_folder())),
       window_(window_options(args, remembered_.settings)),
       jobs_(worker_count(), Window::wake),
-      editor_(registry, renderer_, jobs_, with_arguments(remembered_.settings, args), args.skip) {
+      editor_(registry, renderer_, jobs_, with_arguments(remembered_.settings, args), args.skip),
+      meter_(renderer_, jobs_) {
     if (!args.drive_script.empty())
         drive_.emplace(load_drive(path_from_utf8(args.drive_script)), args.drive_script);
     editor_.status.renderer = window_.description();
@@ -168,11 +188,16 @@ void Loop::take_events() {
 bool Loop::idle() const {
     return frames_wanted_ == 0 && !animating_ && !more_uploads_ && jobs_.running().empty() &&
            !editor_.reconciler.pending() && !editor_.thumbnails.busy() &&
-           !jobs_.is_running(editor_.autosave_job) && !drop_ && !editor_.sheet.report;
+           !jobs_.is_running(editor_.autosave_job) && !drop_ && !wants_refining() && !editor_.sheet.report;
 }
 
 bool Loop::update_reconciler() {
-    return editor_.reconciler.update(editor_.document, editor_.opened, wanted_pictures(editor_));
+    std::vector<WantedPicture> further = wanted_pictures(editor_);
+    int height_px = 1;
+    for (const DrawnView& view : sheet_views_)
+        if (view.target) height_px = std::max(height_px, Renderer::size_px(*view.target).y);
+    for (WantedPicture& picture : further) picture.sight = {editor_.camera, height_px};
+    return editor_.reconciler.update(editor_.document, editor_.opened, sight(), further);
 }
 
 /// Everything that goes on without the interface.
@@ -188,12 +213,19 @@ void Loop::think() {
     settle(editor_, true);
 }
 
+/// Before the first frame the view is taken to be as high as the window.
+Sight Loop::sight() const {
+    const int height = target_ ? Renderer::size_px(*target_).y : window_.framebuffer_px().y;
+    return {editor_.camera, std::max(height, 1)};
+}
+
 bool Loop::needs_frame() const {
     if (window_.minimized()) return false;
-    return frames_wanted_ > 0 || animating_ || editor_.changes != changes_shown_ ||
-           editor_.thumbnails.version() != thumbnails_shown_ || jobs_.running() != jobs_shown_ ||
-           editor_.reconciler.pending() != pending_shown_ ||
+    return frames_wanted_ > 0 || animating_ || (!editor_.document.sheet && meter_.busy()) ||
+           editor_.changes != changes_shown_ || editor_.thumbnails.version() != thumbnails_shown_ ||
+           jobs_.running() != jobs_shown_ || editor_.reconciler.pending() != pending_shown_ ||
            (window_.wants_text() && window_.time_s() - last_frame_s_ >= kCaretSeconds) ||
+           (wants_refining() && window_.time_s() - changed_s_ >= kStillSeconds) ||
            (editor_.document.sheet
                 ? sheet_is_stale()
                 : editor_.reconciler.drawable() && !(signature_of(editor_.reconciler.scene(
@@ -219,7 +251,7 @@ bool Loop::sheet_is_stale() const {
 /// Only the views that are seen and changed.
 void Loop::draw_sheet(const std::vector<ui::SheetSize>& seen) {
     sheet_seen_.clear();
-    if (!editor_.document.sheet) return;
+    if (!editor_.document.sheet) return sheet_views_.clear();
     const std::size_t views = std::min(places_of(*editor_.document.sheet).size(), kMaxFurtherPictures);
     sheet_views_.resize(views);
     for (const ui::SheetSize& each : seen) {
@@ -271,16 +303,48 @@ void Loop::draw_view(glm::ivec2 size_px) {
     if (size_px.x <= 0 || size_px.y <= 0 || !editor_.reconciler.drawable()) return;
     const Scene scene = editor_.reconciler.scene(editor_.camera, editor_.document.view);
     Drawn wanted = signature_of(scene);
-    const bool resized = !target_ || Renderer::size_px(*target_) != size_px;
-    if (!resized && has_drawn_ && wanted == drawn_) return;
-    if (resized) {
-        target_ = renderer_.make_target(size_px);
+    const bool resized = size_px != size_px_;
+    const bool changed = resized || !has_drawn_ || !(wanted == drawn_);
+    const double now_s = window_.time_s();
+    if (changed) changed_s_ = now_s;
+    if (!changed && !(wants_refining() && now_s - changed_s_ >= kStillSeconds)) return;
+    const Pace quality = changed && has_drawn_ ? pace_.while_moving() : Pace::Good;
+    const glm::ivec2 pixels = quality == Pace::Rough ? (size_px + 1) / 2 : size_px;
+    TargetHandle& target = targets_[int(quality)];
+    if (!target || Renderer::size_px(*target) != pixels)
+        target = renderer_.make_target(pixels, quality == Pace::Good ? kSamples : 1);
+    if (target != target_)
         frames_wanted_ = std::max(frames_wanted_, 1);  // this frame still shows the old one
-    }
+    size_px_ = size_px;
+    target_ = target;
+    shown_ = quality;
+    drew_s_ = now_s;
     renderer_.draw(scene, *target_);
     drawn_ = std::move(wanted);
     has_drawn_ = true;
     ++views_;
+}
+
+void Loop::measure_view(glm::ivec2 size_px, bool held) {
+    if (size_px.x <= 0 || size_px.y <= 0 || !editor_.reconciler.drawable()) return;
+    const bool before = meter_.busy();
+    meter_.update(editor_.reconciler.scene(editor_.camera, editor_.document.view), size_px,
+                  editor_.ui.accuracy, held);
+    if (!before && !meter_.busy()) return;
+    ++views_;
+    frames_wanted_ = std::max(frames_wanted_, 1);  // whose words say what this one shows
+}
+
+void Loop::fill_viewport(ui::Viewport& viewport) const {
+    if (target_) viewport.texture = Renderer::display_texture(*target_);
+    const auto picture = [&](ui::Layer layer) {
+        if (layer.kind == ui::Layer::View && is_reference(editor_.document.view))
+            layer = {ui::Layer::Mode, Shading::Reference};
+        return meter_.picture(layer);
+    };
+    viewport.left = picture(editor_.ui.accuracy.left);
+    viewport.right = picture(editor_.ui.accuracy.right);
+    viewport.accuracy = meter_.status();
 }
 
 void Loop::fill_status() {
@@ -345,9 +409,10 @@ void Loop::frame() {
                              .mesh_info = editor_.reconciler.mesh_info(),
                              .environment_info = editor_.reconciler.environment_info(),
                              .panels = editor_.registry.panels};
-    if (target_) context.viewport.texture = Renderer::display_texture(*target_);
     context.sheet = editor_.document.sheet ? &*editor_.document.sheet : nullptr;
     fill_sheet(context);
+    fill_viewport(context.viewport);
+    context.work = &renderer_.work();
     context.unsaved = editor_.unsaved ? &*editor_.unsaved : nullptr;
     context.recovery = editor_.recovery_question ? &*editor_.recovery_question : nullptr;
     const std::optional<ui::Drop> drop = std::exchange(drop_, std::nullopt);
@@ -365,6 +430,9 @@ void Loop::frame() {
     const std::optional<fs::path> screenshot = drive_ ? drive_->take_screenshot() : std::nullopt;
     Image picture;
     window_.end_frame(screenshot ? &picture : nullptr);
+    if (drew_s_) pace_.took(shown_, window_.time_s() - *std::exchange(drew_s_, std::nullopt));
+    ++renderer_.work().frames_shown;
+    if (shown && !first_lit_frame_) first_lit_frame_ = mark_process();
     if (screenshot) save_image(*screenshot, picture);
 }
 
@@ -373,6 +441,8 @@ void Loop::after_frame(const ui::PanelContext& context) {
     settle(editor_, context.result.item_active || context.result.viewport_active);
     update_reconciler();
     draw_view(context.result.viewport_size_px);
+    measure_view(context.result.viewport_size_px,
+                 context.result.item_active || context.result.viewport_active);
     draw_sheet(context.result.sheet);
     for (const int seen : sheet_seen_) {
         const DrawnView& shown = sheet_views_[std::size_t(seen)];
@@ -400,6 +470,7 @@ double Loop::sleep_s() const {
     if (needs_frame()) return 0.0;
     double wait = next_errand_s(editor_, window_.time_s());
     if (window_.wants_text()) wait = std::min(wait, kCaretSeconds);
+    if (wants_refining()) wait = std::min(wait, kStillSeconds);
     if (editor_.thumbnails.busy()) wait = std::min(wait, kAnimationSeconds);
     if (drive_) wait = std::min(wait, 0.02);
     return std::max(wait, 0.001);
@@ -456,7 +527,8 @@ int Loop::run() {
     try {
         remember_window();
         keep_sheet(editor_);
-    } catch (const std::exception& error) {  // closing must not fail for a window size
+        write_stats(args_.stats, renderer_.work(), first_lit_frame_);
+    } catch (const std::exception& error) {  // closing must not fail for what is only kept
         log_line(editor_, ui::Severity::Warning, error.what());
     }
     return 0;

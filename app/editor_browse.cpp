@@ -97,10 +97,15 @@ void export_picture(Editor& editor, const ui::request::ExportRender& request) {
         const ImageExporter& exporter = image_exporter(editor.registry, file);
         if (!editor.reconciler.drawable())
             throw std::runtime_error("There is no picture yet; wait for the light and export again.");
+        if (is_reference(editor.document.view))
+            throw std::runtime_error(
+                "The reference takes its time and is saved by the command line: patina render PRESET -o " +
+                utf8_from_path(file.filename()) + " --shading reference --samples 4096.");
         const glm::ivec2 size(std::clamp(request.width, 1, kMaxPictureSide),
                               std::clamp(request.height, 1, kMaxPictureSide));
         const TargetHandle target = editor.renderer.make_target(size);
-        editor.renderer.draw(editor.reconciler.scene(editor.camera, editor.document.view), *target);
+        editor.renderer.draw(editor.reconciler.detailed_scene(editor.camera, editor.document.view, size.y),
+                             *target);
         const bool radiance = exporter.extensions.front() == "exr";
         auto picture = std::make_shared<Image>(radiance ? editor.renderer.read_radiance(*target)
                                                         : editor.renderer.read_display(*target));

@@ -98,7 +98,8 @@ void offer_sheet(Editor& editor, const Sorted& sorted) {
     const ImportProposal proposal = propose_import(sorted.maps);
     ui::ImportSheet sheet{.title = proposal.name};
     for (const patina::ImportRow& row : proposal.rows) sheet.rows.push_back(to_ui(row));
-    for (const std::string& mesh : sorted.meshes)
+    if (sorted.meshes.size() == 1) sheet.mesh = sorted.meshes[0];
+    for (const std::string& mesh : sheet.mesh.empty() ? sorted.meshes : std::vector<std::string>{})
         sheet.notes.push_back(short_name(mesh) + " is a mesh; drop it by itself to put the material on it.");
     for (const std::string& preset : sorted.presets)
         sheet.notes.push_back(short_name(preset) + " is not a picture; drop it by itself to open it.");
@@ -173,6 +174,7 @@ void apply_import_sheet(Editor& editor) {
         editor.document.material.name = sheet.title;
         editor.document.material.source.clear();  // it spoke of the values that were here before
     }
+    if (sheet.use_mesh && !sheet.mesh.empty()) use_mesh(editor, sheet.mesh);
     log_line(editor, ui::Severity::Info,
              "Imported " + std::to_string(used) + (used == 1 ? " map." : " maps."));
 }

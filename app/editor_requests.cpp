@@ -140,6 +140,7 @@ void carry_out(Editor& editor, const ui::Requests& requests) {
         [&](const ask_for::ExportReport& r) { export_report(editor, r.file); },
         [&](const ask_for::CancelJob& r) { cancel_job(editor, r.id); },
         [&](const ask_for::ClearLog&) { editor.status.log.clear(); },
+        [&](const ask_for::ClearWork&) { editor.renderer.work() = {}; },
         [&](const ask_for::CopyText& r) { editor.clipboard = r.text; },
         [&](const ask_for::ListFolder& r) { list_folder(editor, r.folder); },
         [&](const ask_for::MakeFolder& r) { make_folder(editor, r.folder); },

@@ -2,6 +2,7 @@
 #include "app/args.h"
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/driver_cache.h"
 #include "app/editor.h"
 
 #include <cstdio>
@@ -42,6 +43,7 @@ int main(int argc, char** argv) {
         return parsed.exit_status;
     }
     try {
+        patina::keep_driver_off_a_full_disk();
         return run(*parsed.args);
     } catch (const std::exception& error) {
         patina::say(error.what());

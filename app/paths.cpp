@@ -1,12 +1,8 @@
 #include "app/paths.h"
 
-#include <cstdlib>
+#include "renderer/core/module_io.h"
 
-#ifdef _WIN32
-#include <windows.h>
-#elif defined(__APPLE__)
-#include <mach-o/dyld.h>
-#endif
+#include <cstdlib>
 
 namespace patina {
 
@@ -52,23 +48,6 @@ fs::path path_from_utf8(std::string_view text) {
 std::string utf8_from_path(const fs::path& path) {
     const std::u8string text = path.u8string();
     return {reinterpret_cast<const char*>(text.data()), text.size()};
-}
-
-fs::path program_folder() {
-    std::error_code ignored;
-#ifdef _WIN32
-    std::wstring name(32768, L'\0');
-    name.resize(GetModuleFileNameW(nullptr, name.data(), static_cast<DWORD>(name.size())));
-    return fs::path(name).parent_path();
-#elif defined(__APPLE__)
-    std::string name(4096, '\0');
-    auto size = static_cast<std::uint32_t>(name.size());
-    if (_NSGetExecutablePath(name.data(), &size) != 0) return fs::current_path(ignored);
-    return fs::weakly_canonical(fs::path(name.c_str()), ignored).parent_path();
-#else
-    const fs::path name = fs::read_symlink("/proc/self/exe", ignored);
-    return name.empty() ? fs::current_path(ignored) : name.parent_path();
-#endif
 }
 
 fs::path share_folder() {

@@ -7,8 +7,6 @@
 
 namespace patina {
 
-/// The folder of the running executable.
-std::filesystem::path program_folder();
 /// Shipped presets and data: PATINA_SHARE_DIR, else ../share/patina beside the executable's folder.
 std::filesystem::path share_folder();
 /// Things that can be made again (baked light, thumbnails): PATINA_CACHE_DIR, else XDG_CACHE_HOME/patina,

@@ -70,11 +70,27 @@ Plot ibl_plot(const Json& result, double roughness) {
     }
     plot.guides = {{0.1, "0.1 %"}};
     plot.notes = {
-        "Error against quadrature over all texels in double precision. A level of the transform counts its "
-        "share "
-        "of what all levels need."};
+        "Error against quadrature over all texels in double precision. A level is baked alone, with all it "
+        "needs; first light counts all its levels."};
     if (result.contains("instruction_set"))
         plot.notes.push_back("Instruction set: " + result.at("instruction_set").get<std::string>() + ".");
+    return plot;
+}
+
+Plot scaling_plot(const Json& rows) {
+    Plot plot;
+    plot.title = "Baking by size of the panorama";
+    plot.subtitle = "All standard levels and the irradiance; first light";
+    plot.x = {"megapixels", true};
+    plot.y = {"time (ms)", true};
+    for (const Json& row : rows) {
+        const double megapixels = row.at("width").get<double>() * row.at("height").get<double>() / 1e6;
+        const std::string threads = " on " + std::to_string(row.at("threads").get<int>()) +
+                                    (row.at("threads").get<int>() == 1 ? " thread" : " threads");
+        series_named(plot, "bake" + threads).points.push_back({megapixels, row.at("bake_ms"), ""});
+        series_named(plot, "first light" + threads)
+            .points.push_back({megapixels, row.at("first_light_ms"), ""});
+    }
     return plot;
 }
 
@@ -89,6 +105,7 @@ std::vector<NamedPlot> ibl_plots(const Json& result) {
         digits.insert(0, std::size_t(std::max(0, 3 - int(digits.size()))), '0');
         plots.push_back({"ibl-roughness-" + digits, ibl_plot(result, roughness)});
     }
+    if (result.contains("scaling")) plots.push_back({"ibl-scaling", scaling_plot(result.at("scaling"))});
     return plots;
 }
 
@@ -102,6 +119,31 @@ std::vector<NamedPlot> frame_plots(const Json& result) {
         series_named(plot, each.at("name").get<std::string>())
             .points.push_back({each.at("side_px").get<double>(), each.at("ms").get<double>(), ""});
     return {{"frame", plot}};
+}
+
+/// Cost against mean error of one material.
+Plot shading_plot(const Json& result, const std::string& material, const std::string& title) {
+    Plot plot;
+    plot.title = title;
+    plot.subtitle = "Mean over environments, meshes and roughness " + result.value("roughness_range", "");
+    plot.x = {"cost of a frame (split sum = 1)", true};
+    plot.y = {"relative rms error (%)", true};
+    plot.pareto = true;
+    for (const Json& mode : result.at("modes")) {
+        const auto [family, setting] = family_and_setting(mode.at("name").get<std::string>());
+        series_named(plot, family)
+            .points.push_back(
+                {mode.at("cost").get<double>(), 100.0 * mode.at("rms").at(material).get<double>(), setting});
+    }
+    plot.notes = {"Error against the sampled reflectance integral at pixel centres. Frames drawn by " +
+                  result.value("renderer", "") + "."};
+    return plot;
+}
+
+std::vector<NamedPlot> shading_plots(const Json& result) {
+    return {{"shading-metal", shading_plot(result, "metal", "Shading a metal, F0 = 1")},
+            {"shading-dielectric",
+             shading_plot(result, "dielectric", "Shading a dielectric, F0 = 0.04, albedo 0.8")}};
 }
 
 /// Only where there are sizes to compare.
@@ -152,6 +194,7 @@ std::vector<NamedPlot> stability_plots(const Json& result) {
 std::vector<NamedPlot> bench_plots(std::string_view benchmark, const Json& result) {
     if (benchmark == "ibl") return ibl_plots(result);
     if (benchmark == "frame") return frame_plots(result);
+    if (benchmark == "shading") return shading_plots(result);
     if (benchmark == "light") return light_plots(result);
     if (benchmark == "stability") return stability_plots(result);
     return {};

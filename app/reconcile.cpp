@@ -1,9 +1,9 @@
 #include "app/reconcile.h"
 
-#include "app/reconcile_bytes.h"
 #include "app/reconcile_light.h"
 #include "app/reconcile_load.h"
 #include "app/reconcile_supply.h"
+#include "app/stats.h"
 #include "materials/params.h"
 #include "materials/text_io.h"
 
@@ -27,10 +27,12 @@ struct HeldMap {
     MapHandle thumbnail;
     ui::MapStatus status;  ///< of a loaded map; without a texture id
     ChannelRanges ranges;
+    int side = 0;  ///< texels of the finest level that was asked for; 0: all are there
 };
 struct HeldMesh {
     MeshHandle handle;
     std::shared_ptr<const Mesh> mesh;  ///< for adding tangents later
+    float uv_stretch = 0.0f;
     ui::MeshInfo info;
 };
 struct HeldEnvironment {
@@ -63,16 +65,17 @@ struct Reconciler::State {
     std::vector<std::pair<std::string, FileStamp>> files_read;
     ReconcileCounts counts;
     std::map<std::string, LightOrder> light_orders;  ///< of what is wanted, by key
+    std::map<std::string, MapRequest> map_requests;  ///< likewise
 
     /// What was complete last, and which documents' it was.
     struct Picture {
         Material material;
         std::array<MapHandle, kMapSlots> handles;
+        MapRanges ranges;  ///< of handles
         std::uint64_t opened = 0;
         bool presented = false;
     };
     std::vector<Picture> pictures{1 + kMaxFurtherPictures};  ///< the document's first
-    std::map<std::string, MapRequest> map_requests;          ///< what is wanted now, by key
     std::array<ui::MapStatus, kMapSlots> status;
     ui::MeshInfo no_mesh;
     ui::EnvironmentInfo no_environment;
@@ -87,10 +90,14 @@ struct Reconciler::State {
     void want(std::size_t picture, const WantedPicture& wanted);
     void want_light(std::span<const WantedPicture* const> wanted);
     void want_nothing(std::size_t picture);
+    std::string want_map(MapRequest request, int finest_side);
+    int visible_side(std::size_t picture, const Material& wanted, const Sight& seen) const;
+    bool has_map(std::size_t slot) const;
     std::optional<NeededLight> needed_by(std::size_t picture, const WantedPicture& wanted) const;
     std::string light_key(const std::string& environment, const std::optional<NeededLight>& needed);
     void start_missing();
     Jobs::Id start_map(const std::string& key, const MapRequest& request);
+    void finish_map(const std::string& key, HeldMap held, std::uint64_t bytes);
     Jobs::Id start_mesh(const std::string& key);
     Jobs::Id start_environment(const std::string& key);
     void count_light(const LightOrder& order, const ReadyLight& ready);
@@ -106,6 +113,7 @@ struct Reconciler::State {
     void note(const std::string& id, const std::vector<std::string>& notes) const;
     bool slot_ready(std::size_t picture, const Material& material, int slot) const;
     bool light_ready(std::size_t picture) const;
+    std::optional<ChannelRanges> ranges_of(std::size_t picture, int slot) const;
     MapHandle handle_for(std::size_t picture, const Material& material, int slot) const;
     void present(std::size_t picture, const Material& material, std::uint64_t opened_now);
     Scene scene(std::size_t picture, const Camera& camera, const View& view) const;
@@ -131,15 +139,14 @@ std::string map_key(const std::string& versioned_file, const MapRequest& request
 }  // namespace
 
 void Reconciler::State::want(std::size_t picture, const WantedPicture& wanted) {
+    const int finest_side = visible_side(picture, wanted.material, wanted.sight);
     for (int i = 0; i < kMapSlots; ++i) {
         const MapRequest request = map_request(wanted.material, MapSlot(i));
-        const std::string key =
-            request.file.empty() ? std::string{} : map_key(versioned(request.file), request);
-        maps.want(map_slot(picture, i), key);
-        if (!key.empty()) map_requests[key] = request;
+        maps.want(map_slot(picture, i),
+                  request.file.empty() ? std::string{} : want_map(request, finest_side));
     }
     const bool tangents = !wanted.material.normal.map.empty();
-    meshes.want(picture, versioned(wanted.mesh) + (tangents ? " t" : ""));
+    meshes.want(picture, versioned(wanted.mesh) + (tangents || !options.skip ? " t" : ""));
 }
 
 void Reconciler::State::want_nothing(std::size_t picture) {
@@ -149,18 +156,47 @@ void Reconciler::State::want_nothing(std::size_t picture) {
     pictures[picture] = {};
 }
 
+/// Of a material's maps on the mesh that is shown.
+int Reconciler::State::visible_side(std::size_t picture, const Material& wanted, const Sight& seen) const {
+    const auto& mesh = meshes.slot(picture).value;
+    return visible_map_side(mesh ? mesh->uv_stretch : kUsualUvStretch, wanted.uv.scale,
+                            options.skip ? seen : Sight{});
+}
+
+/// The key of what is there if it is fine enough.
+std::string Reconciler::State::want_map(MapRequest request, int finest_side) {
+    request.finest_side = finest_side;
+    const std::string map = map_key(versioned(request.file), request);
+    std::string at_hand;
+    maps.visit([&](const std::string& key, const HeldMap& held) {
+        const bool fine = held.side == 0 || (request.finest_side > 0 && held.side >= request.finest_side);
+        if (fine && map_of_key(key) == map) at_hand = key;
+    });
+    if (!at_hand.empty()) return at_hand;
+    const std::string key = map + kDetailMark + std::to_string(request.finest_side);
+    map_requests[key] = request;
+    return key;
+}
+
+/// The wanted map is shown, if perhaps not yet in the detail wanted.
+bool Reconciler::State::has_map(std::size_t slot) const {
+    const auto& [keys, value, error] = maps.slot(slot);
+    return value && !keys.wanted.empty() && map_of_key(keys.shown) == map_of_key(keys.wanted);
+}
+
 /// Not known before the maps are there that tell it.
 std::optional<NeededLight> Reconciler::State::needed_by(std::size_t picture,
                                                         const WantedPicture& wanted) const {
     if (!options.skip) return all_light();
-    MapRanges ranges;
+    MapRanges known;
     for (const MapSlot slot : {MapSlot::Roughness, MapSlot::Metallic, MapSlot::Normal}) {
-        const auto& [keys, value, error] = maps.slot(map_slot(picture, int(slot)));
+        const std::size_t at = map_slot(picture, int(slot));
+        const auto& [keys, value, error] = maps.slot(at);
         if (keys.wanted.empty()) continue;
-        if (!keys.ready()) return std::nullopt;
-        ranges[std::size_t(slot)] = keys.wanted == keys.shown && value ? value->ranges : ChannelRanges{};
+        if (!keys.ready() && !has_map(at)) return std::nullopt;
+        known[std::size_t(slot)] = has_map(at) ? value->ranges : ChannelRanges{};
     }
-    return needed_light(wanted.material, ranges, wanted.view);
+    return needed_light(wanted.material, known, wanted.view);
 }
 
 /// Pictures under one environment want one light, which has what any of them looks up.
@@ -182,8 +218,7 @@ std::string Reconciler::State::light_key(const std::string& environment,
     const std::string base = versioned(environment);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         const std::string& loading = environments.slot(i).keys.loading;
-        if (base_of(loading) == base)
-            return loading;  // what a slider passed meanwhile is found when it is there
+        if (base_of(loading) == base) return loading;  // what a slider passed is found when it is there
     }
     std::vector<LightAtHand> at_hand;
     environments.visit([&](const std::string& key, const HeldEnvironment& held) {
@@ -252,11 +287,13 @@ Jobs::Id Reconciler::State::start_map(const std::string& key, const MapRequest& 
     const auto work = [this, key, request, stamp](JobContext&) -> Jobs::Done {
         *stamp = stamp_of(utf8_to_path(request.file));
         const auto ready = std::make_shared<ReadyMap>(load_map(registry, request));
-        return [this, key, ready, stamp] {
+        return [this, key, request, ready, stamp] {
             files_read.emplace_back(id_of(key), *stamp);
+            add(renderer.work(), ready->work);
             const std::uint64_t bytes = bytes_of(*ready->levels);
+            const int side = request.finest_side;
             expect(maps, key, ready, std::exchange(ready->levels, nullptr),
-                   [this, key, bytes](const ReadyMap& map, MapHandle handle) {
+                   [this, key, bytes, side](const ReadyMap& map, MapHandle handle) {
                        HeldMap held{.handle = std::move(handle),
                                     .thumbnail = renderer.upload_thumbnail(map.thumbnail)};
                        held.status = {.state = ui::MapState::Ok,
@@ -266,11 +303,23 @@ Jobs::Id Reconciler::State::start_map(const std::string& key, const MapRequest& 
                                       .bits = map.bits,
                                       .file_bytes = map.file_bytes};
                        held.ranges = map.ranges;
-                       maps.finished(key, std::move(held), bytes);
+                       held.side = map.is_whole ? 0 : side;
+                       finish_map(key, std::move(held), bytes);
                    });
         };
     };
     return jobs.start("Loading " + short_name(request.file), work, when_failed(maps, key, stamp));
+}
+
+/// What shows less of the same map is not needed any more.
+void Reconciler::State::finish_map(const std::string& key, HeldMap held, std::uint64_t bytes) {
+    std::vector<std::string> coarser;
+    maps.visit([&](const std::string& each, const HeldMap& other) {
+        const bool less = held.side == 0 || (other.side > 0 && other.side < held.side);
+        if (less && each != key && map_of_key(each) == map_of_key(key)) coarser.push_back(each);
+    });
+    maps.finished(key, std::move(held), bytes);
+    for (const std::string& each : coarser) maps.forget(each);
 }
 
 Jobs::Id Reconciler::State::start_mesh(const std::string& key) {
@@ -282,6 +331,8 @@ Jobs::Id Reconciler::State::start_mesh(const std::string& key) {
     struct Ready {
         std::shared_ptr<const Mesh> mesh;
         std::vector<std::string> notes;
+        WorkLedger work;
+        float uv_stretch = 0.0f;
     };
     const auto stamp = std::make_shared<FileStamp>();
     const auto work = [this, key, id, bare, stamp](JobContext& job) -> Jobs::Done {
@@ -289,13 +340,18 @@ Jobs::Id Reconciler::State::start_mesh(const std::string& key) {
         auto mesh = std::make_shared<Mesh>(bare ? *bare : load_mesh_part(registry, id, job.stop));
         const auto ready = std::make_shared<Ready>();
         if (!bare) ready->notes = mesh->notes;
-        if (wants_tangents(key) && !mesh->has_tangents) make_tangents(*mesh);
+        const bool make = wants_tangents(key) && !mesh->has_tangents;
+        if (make) make_tangents(*mesh);
+        count_mesh(ready->work, *mesh, make);
         auto prepared = std::make_shared<const PreparedMesh>(prepare_mesh(*mesh));
+        ready->uv_stretch = uv_stretch(*mesh);
         ready->mesh = std::move(mesh);
         return [this, key, ready, stamp, prepared] {
             files_read.emplace_back(id_of(key), *stamp);
+            add(renderer.work(), ready->work);
             expect(meshes, key, ready, prepared, [this, key](const Ready& loaded, MeshHandle handle) {
-                HeldMesh held{.handle = std::move(handle), .mesh = loaded.mesh};
+                HeldMesh held{
+                    .handle = std::move(handle), .mesh = loaded.mesh, .uv_stretch = loaded.uv_stretch};
                 held.info = {.title = mesh_title(registry, id_of(key)),
                              .triangles = loaded.mesh->indices.size() / 3,
                              .vertices = loaded.mesh->vertices.size(),
@@ -321,6 +377,7 @@ Jobs::Id Reconciler::State::start_environment(const std::string& key) {
         return [this, key, order, ready, stamp] {
             files_read.emplace_back(id_of(key), *stamp);
             count_light(order, *ready);
+            patina::count_light(renderer.work(), order, *ready);
             const std::uint64_t bytes = bytes_of(*ready->light) + bytes_of(*ready->held);
             expect(environments, key, ready, std::exchange(ready->light, nullptr),
                    [this, key, bytes](const ReadyLight& light, EnvironmentHandle handle) {
@@ -363,16 +420,23 @@ void Reconciler::State::take_light(const std::string& key, const ReadyLight& lig
 
 void Reconciler::State::start_missing() {
     const auto stop = [this](Jobs::Id id) { jobs.stop(id); };
+    const ReconcileCounts before = counts;
     counts.environments_from_memory +=
         environments.update([this](const std::string& key) { return start_environment(key); }, stop);
     counts.meshes_from_memory +=
         meshes.update([this](const std::string& key) { return start_mesh(key); }, stop);
     counts.maps_from_memory +=
         maps.update([this](const std::string& key) { return start_map(key, map_requests.at(key)); }, stop);
+    WorkLedger& work = renderer.work();
+    work.bakes_from_memory +=
+        std::uint64_t(counts.environments_from_memory - before.environments_from_memory);
+    work.meshes_from_memory += std::uint64_t(counts.meshes_from_memory - before.meshes_from_memory);
+    work.maps_from_memory += std::uint64_t(counts.maps_from_memory - before.maps_from_memory);
 }
 
 bool Reconciler::State::slot_ready(std::size_t picture, const Material& material, int slot) const {
-    if (!maps.slot(map_slot(picture, slot)).keys.ready()) return false;
+    const std::size_t at = map_slot(picture, slot);
+    if (!maps.slot(at).keys.ready() && !has_map(at)) return false;
     // A normal map is shaded along tangents: it waits for a mesh that has them.
     const bool needs_tangents = MapSlot(slot) == MapSlot::Normal && !material.normal.map.empty();
     const SlotKeys& mesh = meshes.slot(picture).keys;
@@ -389,9 +453,17 @@ bool Reconciler::State::light_ready(std::size_t picture) const {
 MapHandle Reconciler::State::handle_for(std::size_t picture, const Material& material, int slot) const {
     const auto& [keys, value, error] = maps.slot(map_slot(picture, slot));
     if (keys.wanted.empty()) return {};
-    if (keys.wanted == keys.shown && value) return value->handle;
+    if (has_map(map_slot(picture, slot))) return value->handle;
     const bool same_file = value && id_of(keys.shown) == *map_of(material, MapSlot(slot)).map;
     return same_file ? value->handle : placeholder;
+}
+
+/// Of the handle above.
+std::optional<ChannelRanges> Reconciler::State::ranges_of(std::size_t picture, int slot) const {
+    const auto& [keys, value, error] = maps.slot(map_slot(picture, slot));
+    const MapHandle& handle = pictures[picture].handles[slot];
+    if (!handle) return std::nullopt;
+    return value && value->handle == handle ? value->ranges : ChannelRanges{};
 }
 
 void Reconciler::State::present(std::size_t index, const Material& wanted, std::uint64_t opened_now) {
@@ -404,23 +476,29 @@ void Reconciler::State::present(std::size_t index, const Material& wanted, std::
         return;  // another document: all or nothing
     Material next = wanted;
     for (int i = 0; i < kMapSlots; ++i) {
-        if (ready[i])
+        if (ready[i]) {
             picture.handles[i] = handle_for(index, wanted, i);
-        else
+            picture.ranges[i] = ranges_of(index, i);
+        } else {
             copy_slot(picture.material, next, MapSlot(i));
+        }
     }
     picture.material = std::move(next);
     picture.presented = true;
     picture.opened = opened_now;
 }
 
-Scene Reconciler::State::scene(std::size_t picture, const Camera& camera, const View& view) const {
-    Scene scene{.maps = pictures[picture].handles,
-                .material = pictures[picture].material,
-                .camera = camera,
-                .view = view};
-    if (const auto& light = environments.slot(picture).value) scene.environment = light->handle;
-    if (const auto& mesh = meshes.slot(picture).value) scene.mesh = mesh->handle;
+Scene Reconciler::State::scene(std::size_t index, const Camera& camera, const View& view) const {
+    const Picture& picture = pictures[index];
+    Scene scene{.maps = picture.handles, .material = picture.material, .camera = camera, .view = view};
+    if (options.skip) {
+        const Collapsed simpler = collapsed(picture.material, picture.ranges);
+        scene.material = simpler.material;
+        for (int i = 0; i < kMapSlots; ++i)
+            if (simpler.slots[i]) scene.maps[i] = nullptr;
+    }
+    if (const auto& light = environments.slot(index).value) scene.environment = light->handle;
+    if (const auto& mesh = meshes.slot(index).value) scene.mesh = mesh->handle;
     return scene;
 }
 
@@ -436,7 +514,7 @@ void Reconciler::State::report(const Document& document) {
             status[i] = {};
             continue;
         }
-        const bool loaded = keys.wanted == keys.shown && value.has_value();
+        const bool loaded = has_map(std::size_t(i));
         if (loaded) next = value->status;
         next.full_path = *map_of(document.material, MapSlot(i)).map;
         if (loaded) {
@@ -477,14 +555,14 @@ Reconciler::Reconciler(Renderer& renderer, const Registry& registry, Jobs& jobs,
 
 Reconciler::~Reconciler() = default;
 
-bool Reconciler::update(const Document& document, std::uint64_t opened,
+bool Reconciler::update(const Document& document, std::uint64_t opened, const Sight& sight,
                         std::span<const WantedPicture> further) {
     const bool more = state_->run_uploads();
     const std::size_t count = std::min(further.size(), kMaxFurtherPictures);
-    state_->map_requests.clear();
-    const WantedPicture own{document.material, document.mesh, document.environment, document.view};
+    const WantedPicture own{document.material, document.mesh, document.environment, document.view, sight};
     std::vector<const WantedPicture*> wanted{&own};
     for (std::size_t i = 0; i < count; ++i) wanted.push_back(&further[i]);
+    state_->map_requests.clear();
     for (std::size_t i = 0; i < 1 + kMaxFurtherPictures; ++i)
         i < wanted.size() ? state_->want(i, *wanted[i]) : state_->want_nothing(i);
     state_->want_light(wanted);
@@ -498,10 +576,26 @@ bool Reconciler::update(const Document& document, std::uint64_t opened,
 Scene Reconciler::scene(const Camera& camera, const View& view) const {
     return state_->scene(0, camera, view);
 }
-bool Reconciler::drawable() const { return state_->drawable(0); }
 Scene Reconciler::scene_of(std::size_t further, const Camera& camera, const View& view) const {
     return state_->scene(1 + further, camera, view);
 }
+
+Scene Reconciler::detailed_scene(const Camera& camera, const View& view, int height_px) const {
+    Scene detailed = scene(camera, view);
+    const Material& material = state_->pictures[0].material;
+    const int side = state_->visible_side(0, material, {camera, height_px});
+    for (int i = 0; i < kMapSlots; ++i) {
+        const auto& held = state_->maps.slot(i).value;
+        const bool coarse = held && held->side > 0 && (side == 0 || held->side < side);
+        if (!coarse || detailed.maps[i] != held->handle) continue;
+        MapRequest request = map_request(material, MapSlot(i));
+        request.finest_side = side;
+        detailed.maps[i] = Renderer::begin_upload(load_map(state_->registry, request).levels).finish();
+    }
+    return detailed;
+}
+
+bool Reconciler::drawable() const { return state_->drawable(0); }
 bool Reconciler::drawable(std::size_t further) const { return state_->drawable(1 + further); }
 
 std::string Reconciler::error_of(std::size_t further) const {

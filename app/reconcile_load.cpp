@@ -1,8 +1,10 @@
 #include "app/reconcile_load.h"
 
+#include "app/stats.h"
 #include "materials/material_io.h"
 #include "materials/params.h"
 #include "materials/text_io.h"
+#include "renderer/map_detail.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +56,7 @@ void copy_slot(const Material& from, Material& to, MapSlot slot) {
     }
 }
 
-ReadyMap load_map(const Registry& registry, const MapRequest& request, int max_side) {
+ReadyMap load_map(const Registry& registry, const MapRequest& request) {
     if (is_web_address(request.file))
         throw std::runtime_error(
             request.file +
@@ -75,11 +77,11 @@ ReadyMap load_map(const Registry& registry, const MapRequest& request, int max_s
     ready.thumbnail = small_picture(loaded.image, kThumbnailPx, linear_color);
     auto levels =
         std::make_shared<MapLevels>(make_map_levels(loaded.image, request.kind, request.color_space));
-    if (max_side > 0)
-        while (levels->levels.size() > 1 &&
-               std::max(levels->levels[0].width, levels->levels[0].height) > max_side)
-            levels->levels.erase(levels->levels.begin());
+    leave_out_finer(*levels, request.finest_side);
+    ready.is_whole = levels->levels[0].width == ready.width && levels->levels[0].height == ready.height;
     ready.ranges = channel_ranges(*levels);
+    if (request.finest_side > 0) keep_one_texel_of_constant(*levels, ready.ranges);
+    count_map(ready.work, loaded.image, *levels);
     ready.levels = std::move(levels);
     return ready;
 }

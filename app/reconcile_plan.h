@@ -20,6 +20,10 @@ inline std::string base_of(const std::string& key) {
     return mark == std::string::npos ? key : key.substr(0, key.find(kVersionMark, mark + 1));
 }
 
+/// Of a map, without its detail, which follows a mark of its own.
+inline constexpr const char* kDetailMark = " @";
+inline std::string map_of_key(const std::string& key) { return key.substr(0, key.rfind(kDetailMark)); }
+
 /// One thing the picture needs. A key names it together with its version; empty: nothing.
 struct SlotKeys {
     std::string wanted;

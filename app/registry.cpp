@@ -107,9 +107,18 @@ Registry builtin_parts() {
     registry.environments = {builtin_environment_source(), blender_environment_source(),
                              bake_environment_source(), file_environment_source()};
     registry.image_importers = {
+        {.name = "png", .description = "Pictures through libpng", .extensions = {"png"}, .load = load_image},
+        {.name = "openexr",
+         .description = "Scene-linear pictures through OpenEXR",
+         .extensions = {"exr"},
+         .load = load_image},
+        {.name = "radiance",
+         .description = "Radiance pictures",
+         .extensions = {"hdr", "pic"},
+         .load = load_image},
         {.name = "openimageio",
-         .description = "Pictures through OpenImageIO",
-         .extensions = {"png", "jpg", "jpeg", "tif", "tiff", "tga", "bmp", "exr", "hdr", "webp"},
+         .description = "Pictures through OpenImageIO, loaded when first needed",
+         .extensions = {"jpg", "jpeg", "tif", "tiff", "tga", "bmp"},
          .load = load_image}};
     registry.mesh_importers = {{.name = "openmesh",
                                 .description = "Meshes through OpenMesh",

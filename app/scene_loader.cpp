@@ -1,6 +1,7 @@
 #include "app/scene_loader.h"
 
 #include "app/paths.h"
+#include "app/stats.h"
 #include "materials/material_io.h"
 #include "materials/params.h"
 
@@ -68,25 +69,38 @@ EnvironmentHandle SceneLoader::environment(const std::string& id, const NeededLi
         .stop = {}};
     const LightOrder order{.id = id, .needed = wanted, .held = light.held, .drawn = light.handle};
     const std::optional<ReadyLight> ready =
-        get_light(registry_, order, BakeSettings{}, options_.cache, control);
+        get_light(registry_, order, drawing_bake_settings(), options_.cache, control);
     if (!ready) throw std::runtime_error(id + ": the bake was stopped");
     for (const std::string& note : ready->notes) options_.note(id + ": " + note);
+    count_light(renderer_.work(), order, *ready);
     light.held = ready->held;
     return light.handle = Renderer::begin_upload(ready->light).finish();
 }
 
 MeshHandle SceneLoader::mesh(const std::string& id, bool with_tangents) {
-    MeshHandle& handle = meshes_[{id, with_tangents}];
-    if (handle) return handle;
-    Mesh mesh = load_mesh_part(registry_, id);
-    for (const std::string& note : mesh.notes) options_.note(id + ": " + note);
-    if (with_tangents && !mesh.has_tangents) make_tangents(mesh);
-    return handle = renderer_.upload_mesh(mesh);
+    return loaded_mesh(id, with_tangents).handle;
 }
 
-MapHandle SceneLoader::map(const MapSource& source, const std::string& preset) {
-    auto& [handle, ranges] = maps_[{utf8_from_path(source.file), source.kind, source.color_space}];
-    if (handle) return handle;
+SceneLoader::LoadedMesh& SceneLoader::loaded_mesh(const std::string& id, bool with_tangents) {
+    LoadedMesh& loaded = meshes_[{id, with_tangents}];
+    if (loaded.handle) return loaded;
+    Mesh mesh = load_mesh_part(registry_, id);
+    for (const std::string& note : mesh.notes) options_.note(id + ": " + note);
+    const bool make = with_tangents && !mesh.has_tangents;
+    if (make) make_tangents(mesh);
+    count_mesh(renderer_.work(), mesh, make);
+    loaded.uv_stretch = uv_stretch(mesh);
+    loaded.handle = renderer_.upload_mesh(mesh);
+    return loaded;
+}
+
+const SceneLoader::Map& SceneLoader::map(const MapSource& source, const std::string& preset, int side) {
+    const int slot = options_.skip ? -1 : int(source.slot);
+    Map& map = maps_[{utf8_from_path(source.file), source.kind, source.color_space, slot}];
+    if (map.handle && (map.side == 0 || (side > 0 && map.side >= side))) {
+        ++renderer_.work().maps_from_memory;
+        return map;
+    }
     options_.progress("loading " + utf8_from_path(source.file.filename()), 0.0f);
     LoadedImage loaded;
     try {
@@ -99,20 +113,36 @@ MapHandle SceneLoader::map(const MapSource& source, const std::string& preset) {
         loaded.image = make_placeholder_map();
     }
     for (const std::string& note : loaded.notes) options_.note(note);
-    const MapLevels levels = make_map_levels(loaded.image, source.kind, source.color_space);
-    ranges = channel_ranges(levels);
-    return handle = renderer_.upload_map(levels);
+    MapLevels levels = make_map_levels(loaded.image, source.kind, source.color_space);
+    leave_out_finer(levels, side);
+    map.ranges = channel_ranges(levels);
+    if (options_.skip) keep_one_texel_of_constant(levels, map.ranges);
+    count_map(renderer_.work(), loaded.image, levels);
+    loaded.image = {};
+    map.side = side;
+    map.handle = renderer_.upload_map(levels);
+    return map;
 }
 
 Scene SceneLoader::scene(const std::string& preset, const SceneOptions& options) {
-    Scene scene;
+    Scene scene{.camera = options.camera, .view = options.view};
     const auto [material, file] = material_of(preset, options, options_.note);
+    const LoadedMesh& mesh = loaded_mesh(options.mesh, !material.normal.map.empty() || !options_.skip);
+    scene.mesh = mesh.handle;
+    const Sight sight{options.camera, options_.skip ? options.size_px.y : 0};
+    const int side = visible_map_side(mesh.uv_stretch, material.uv.scale, sight);
+    MapRanges ranges;
+    for (const MapSource& source : map_sources(material, file)) {
+        const Map& loaded = map(source, preset, side);
+        scene.maps[std::size_t(source.slot)] = loaded.handle;
+        ranges[std::size_t(source.slot)] = loaded.ranges;
+    }
     scene.material = material;
-    for (const MapSource& source : map_sources(scene.material, file))
-        scene.maps[std::size_t(source.slot)] = map(source, preset);
-    scene.mesh = mesh(options.mesh, !scene.material.normal.map.empty());
-    scene.camera = options.camera;
-    scene.view = options.view;
+    if (!options_.skip) return scene;
+    Collapsed simpler = collapsed(material, ranges);
+    scene.material = std::move(simpler.material);
+    for (std::size_t slot = 0; slot < scene.maps.size(); ++slot)
+        if (simpler.slots[slot]) scene.maps[slot] = nullptr;
     return scene;
 }
 

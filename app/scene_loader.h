@@ -5,6 +5,7 @@
 #include "app/args.h"
 #include "app/reconcile_light.h"
 #include "app/registry.h"
+#include "renderer/map_detail.h"
 #include "renderer/needed_light.h"
 #include "renderer/renderer.h"
 
@@ -61,15 +62,22 @@ private:
     struct Map {
         MapHandle handle;
         ChannelRanges ranges;
+        int side = 0;  ///< texels of the finest level that was asked for; 0: all
     };
-    MapHandle map(const MapSource& source, const std::string& preset);
+    struct LoadedMesh {
+        MeshHandle handle;
+        float uv_stretch = 0.0f;
+    };
+    LoadedMesh& loaded_mesh(const std::string& id, bool with_tangents);
+    const Map& map(const MapSource& source, const std::string& preset, int side);
 
     Renderer& renderer_;
     const Registry& registry_;
     Options options_;
     std::map<std::string, Light> lights_;
-    std::map<std::pair<std::string, bool>, MeshHandle> meshes_;
-    std::map<std::tuple<std::string, MapKind, ColorSpace>, Map> maps_;
+    std::map<std::pair<std::string, bool>, LoadedMesh> meshes_;
+    std::map<std::tuple<std::string, MapKind, ColorSpace, int>, Map>
+        maps_;  ///< last: the slot, if not shared
 };
 
 }  // namespace patina

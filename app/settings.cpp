@@ -1,8 +1,11 @@
 #include "app/settings.h"
 
+#include "materials/json_text.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace patina {
 
@@ -58,9 +61,23 @@ struct Reader {
 
 }  // namespace
 
+namespace {
+
+/// Of bounded depth; null where it is no JSON.
+Json parsed_or_null(std::string_view text) {
+    try {
+        std::vector<std::string> repeated_keys;
+        return parse_json(text, "settings", repeated_keys);
+    } catch (const std::runtime_error&) {
+        return nullptr;
+    }
+}
+
+}  // namespace
+
 ParsedSettings parse_settings(std::string_view text) {
     ParsedSettings parsed;
-    const Json json = Json::parse(text, nullptr, false);
+    const Json json = parsed_or_null(text);
     if (!json.is_object()) {
         parsed.notes.emplace_back("The settings could not be read and start afresh.");
         return parsed;

@@ -1,8 +1,27 @@
 #include "app/studio.h"
 
 #include "app/paths.h"
+#include "renderer/reference.h"
+
+#include <array>
+#include <cstdio>
 
 namespace patina {
+
+namespace {
+
+std::string percent(double share) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.2g %%", 100.0 * share);
+    return text.data();
+}
+
+std::string confidence_text(const Confidence& known, int samples) {
+    return "reference: " + std::to_string(samples) + " samples a pixel; 95 % half-width: median " +
+           percent(known.median) + ", 95 of 100 pixels below " + percent(known.p95);
+}
+
+}  // namespace
 
 Studio::Studio(const Registry& registry, const SceneOptions& options)
     : loader(
@@ -16,9 +35,29 @@ Studio::Studio(const Registry& registry, const SceneOptions& options)
                    progress.clear();
                    say(sentence);
                },
-           .progress = [this](const std::string& what, float fraction) { progress.show(what, fraction); }}) {}
+           .progress = [this](const std::string& what, float fraction) { progress.show(what, fraction); }}),
+      samples_(options.samples) {}
+
+TargetHandle Studio::draw_reference(const Scene& scene, glm::ivec2 size_px) {
+    TargetHandle target = renderer.make_target(size_px, 1, TargetPrecision::Full);
+    Reference reference(renderer, size_px, {.max_samples = samples_, .tolerance = 0.0});
+    reference.restart(scene);
+    while (!reference.progress().done) {
+        reference.draw();
+        progress.show("sampling the reference", float(reference.progress().samples) / float(samples_));
+    }
+    progress.clear();
+    if (const auto& known = reference.progress().confidence)
+        say(confidence_text(*known, reference.progress().samples));
+    reference.write(*target);
+    return target;
+}
 
 Image Studio::picture(const Scene& scene, RenderTarget& target, bool radiance) {
+    if (is_reference(scene.view)) {
+        const TargetHandle reference = draw_reference(scene, Renderer::size_px(target));
+        return radiance ? renderer.read_radiance(*reference) : renderer.read_display(*reference);
+    }
     renderer.draw(scene, target);
     return radiance ? renderer.read_radiance(target) : renderer.read_display(target);
 }

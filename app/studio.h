@@ -17,7 +17,12 @@ struct Studio {
 
     /// Says notes on standard error and shows progress where a person watches.
     Studio(const Registry& registry, const SceneOptions& options);
+    /// Of the target's size; the reference is gathered in a target of its own and says how well it is known.
     Image picture(const Scene& scene, RenderTarget& target, bool radiance);
+
+private:
+    TargetHandle draw_reference(const Scene& scene, glm::ivec2 size_px);
+    int samples_;  ///< points a pixel of the reference
 };
 
 /// What a picture's file says of itself.

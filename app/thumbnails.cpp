@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kVersion = 1;  ///< of how thumbnails look
+constexpr int kVersion = 2;  ///< of how thumbnails look
 constexpr int kSidePx = 192;
 constexpr int kMapPx = 256;
 constexpr const char* kLight = "studio";
@@ -80,10 +80,11 @@ void find_preset_picture(const Registry& registry, const fs::path& folder, const
     found.cache_file = cache_file(folder, content);
     if (take_from_cache(found)) return;
     for (int i = 0; i < kMapSlots; ++i) {
-        const MapRequest request = map_request(found.material, MapSlot(i));
+        MapRequest request = map_request(found.material, MapSlot(i));
         if (request.file.empty()) continue;
         try {
-            found.maps[i] = load_map(registry, request, kMapPx);
+            request.finest_side = kMapPx;
+            found.maps[i] = load_map(registry, request);
         } catch (const std::exception&) {
             found.maps[i]
                 .reset();  // shown by its value alone; the editor says what is missing once it is opened

@@ -20,7 +20,7 @@ public:
     struct Options {
         std::filesystem::path folder;  ///< of the disk cache
         BakeCache bakes;
-        BakeSettings bake_settings;
+        BakeSettings bake_settings = drawing_bake_settings();
     };
     enum class Kind { Preset, Environment, Mesh, Picture };
 

@@ -256,6 +256,11 @@ std::uint64_t Window::frames() const { return state_->frames; }
 double Window::time_s() const { return glfwGetTime(); }
 float Window::interface_scale() const { return state_->scale; }
 float Window::framebuffer_scale() const { return state_->framebuffer_scale; }
+glm::ivec2 Window::framebuffer_px() const {
+    glm::ivec2 size(0);
+    glfwGetFramebufferSize(state_->window, &size.x, &size.y);
+    return size;
+}
 
 glm::ivec2 Window::size() const {
     glm::ivec2 size;

@@ -58,6 +58,7 @@ public:
     double time_s() const;
     float interface_scale() const;    ///< 1 = 96 dpi
     float framebuffer_scale() const;  ///< pixels a display unit
+    glm::ivec2 framebuffer_px() const;
     glm::ivec2 size() const;          ///< screen units
     bool maximized() const;
     std::string description() const;  ///< GL renderer and version

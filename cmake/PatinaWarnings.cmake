@@ -1,6 +1,7 @@
 # Compiler warnings and sanitizers for our own targets; packages' headers are SYSTEM and stay quiet.
 option(PATINA_WERROR "Treat compiler warnings as errors" OFF)
 option(PATINA_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
+option(PATINA_FUZZ "Build patina_fuzz for LLVM's coverage-guided fuzzer (needs clang)" OFF)
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
     set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
@@ -21,6 +22,10 @@ if(PATINA_SANITIZE)
     target_compile_options(patina_flags INTERFACE
         -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer -O1)
     target_link_options(patina_flags INTERFACE -fsanitize=address,undefined)
+endif()
+if(PATINA_FUZZ)
+    add_compile_options(-fsanitize=fuzzer-no-link,address -fno-omit-frame-pointer)
+    add_link_options(-fsanitize=address)
 endif()
 
 # patina_library(NAME [PUBLIC libs...] [PRIVATE libs...]): a static library of every source in the calling folder.

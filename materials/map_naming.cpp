@@ -271,8 +271,8 @@ std::string normal_reason(const Reading& reading) {
 std::string reason_of(const Reading& reading, const MapUse& use) {
     const std::string slot = lower(std::string(slot_row(use.slot).label));
     if (reading.names_set_only)
-        return "carries only the name of its set, which has no other colour map: taken as base colour";
-    if (!reading.word) return "the only picture, and its name says nothing: taken as base colour";
+        return "carries only the name of its set, which has no other colour map: taken as albedo";
+    if (!reading.word) return "the only picture, and its name says nothing: taken as albedo";
     if (reading.word->role == MapRole::Packed) return packed_reason(reading, use);
     std::string reason = word_in_name(reading) + " names " + slot;
     if (reading.word->role == MapRole::Normal) reason = normal_reason(reading);

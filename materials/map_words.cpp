@@ -12,7 +12,7 @@ constexpr std::string_view kHeight =
     "is a height map; nothing is displaced here, the normal map carries the relief";
 constexpr std::string_view kOpacity = "is an opacity map; this material is opaque";
 constexpr std::string_view kSpecular =
-    "is a specular map; this material takes its mirror strength from base colour and metallic";
+    "is a specular map; this material takes its mirror strength from albedo and metallic";
 constexpr std::string_view kCavity =
     "is a baked helper map (cavity, curvature, …), which this material does not use";
 constexpr std::string_view kLayer =

@@ -18,7 +18,7 @@ MapRef ref_to(ScalarSlot& slot) {
 MapRef ref_to(NormalSlot& slot) { return {.map = &slot.map, .convention = &slot.convention}; }
 
 constexpr std::array kSlots{
-    MaterialSlot{MapSlot::Albedo, "albedo", "Base colour",
+    MaterialSlot{MapSlot::Albedo, "albedo", "Albedo",
                  "A picture of the surface's colour without light and shadow.",
                  [](Material& m) { return ref_to(m.albedo); }},
     MaterialSlot{MapSlot::Roughness, "roughness", "Roughness",

@@ -98,7 +98,7 @@ struct MaterialParam {
 
 // clang-format off
 inline constexpr std::array kMaterialParams{
-    MaterialParam{"albedo", "Base colour",
+    MaterialParam{"albedo", "Albedo",
         "The share of light reflected in red, green and blue: the body colour of a non-metal, the mirror colour of a metal.",
         ParamKind::Color, {0, 1, 0, 1}, "", ParamGroup::Surface, MapSlot::Albedo,
         [](auto& m) { return &m.albedo.value.x; }},

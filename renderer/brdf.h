@@ -9,8 +9,11 @@
 namespace patina::brdf {
 
 using glm::clamp;
+using glm::exp2;
 using glm::max;
+using glm::min;
 using glm::mix;
+using glm::pow;
 using glm::vec2;
 using glm::vec3;
 using std::sqrt;

@@ -1,5 +1,7 @@
 #include "renderer/features.h"
 
+#include "renderer/brdf.h"
+
 #include <utility>
 
 namespace patina {
@@ -18,8 +20,10 @@ constexpr std::pair<Feature, const char*> kDefines[] = {
 
     {Feature::Course, "HAS_COURSE"},
     {Feature::Debug, "HAS_DEBUG"},
+    {Feature::Fitted, "HAS_FITTED"},
+    {Feature::TwoTaps, "HAS_TWO_TAPS"},
 };
-constexpr Features kAll = (1u << 10) - 1;
+constexpr Features kAll = (1u << 12) - 1;
 
 /// With all that they imply. Debug views are looked at one at a time and may share what costs nothing but
 /// time; which numbers a roughness map holds is not known here.
@@ -27,6 +31,8 @@ Features completed(Features features) {
     if (has(features, Feature::Debug)) features |= Features(Feature::Sharp) | Features(Feature::Emission);
     if (has(features, Feature::RoughnessMap)) features |= Features(Feature::Sharp);
     if (has(features, Feature::EmissionMap)) features |= Features(Feature::Emission);
+    if (has(features, Feature::Course)) features &= ~(Features(Feature::Fitted) | Features(Feature::TwoTaps));
+    if (!has(features, Feature::Fitted)) features &= ~Features(Feature::TwoTaps);
     return features;
 }
 
@@ -47,10 +53,24 @@ Features features_of(const Material& material, const std::bitset<kMapSlots>& bou
     add(is_bound(MapSlot::Normal) && material.normal.value != 0.0f, Feature::NormalMap);
     add(is_bound(MapSlot::Emission) && emits, Feature::EmissionMap);
     add(emits, Feature::Emission);
-    add(material.roughness.value < sharpest_roughness, Feature::Sharp);
+    // What is drawn where the reference is not there yet.
+    const bool fitted = view.shading == Shading::Fitted || view.shading == Shading::Reference;
+    const float reach = fitted ? brdf::kCoreReach : 1.0f;
+    add(material.roughness.value < reach * sharpest_roughness, Feature::Sharp);
     add(view.shading == Shading::Course, Feature::Course);
+    add(fitted, Feature::Fitted);
+    add(fitted && view.quality == Quality::High, Feature::TwoTaps);
     add(view.debug != DebugView::Final, Feature::Debug);
     return completed(features);
+}
+
+Features reference_features(Features features) {
+    Features read = 0;
+    for (const Feature feature :
+         {Feature::AlbedoMap, Feature::RoughnessMap, Feature::MetallicMap, Feature::AoMap, Feature::NormalMap,
+          Feature::EmissionMap, Feature::Emission})
+        read |= features & Features(feature);
+    return read;
 }
 
 std::vector<Features> all_features() {

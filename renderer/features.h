@@ -22,9 +22,11 @@ enum class Feature : Features {
     NormalMap = 1u << 4,
     EmissionMap = 1u << 5,  ///< implies Emission
     Emission = 1u << 6,
-    Sharp = 1u << 7,   ///< roughness may be below the sharpest prefiltered level; a roughness map implies it
-    Course = 1u << 8,  ///< the lecture's formulas
-    Debug = 1u << 9,   ///< one ingredient instead of the picture; implies Sharp and Emission
+    Sharp = 1u << 7,   ///< roughness may be too low for the levels alone; a roughness map implies it
+    Course = 1u << 8,   ///< the lecture's formulas
+    Debug = 1u << 9,    ///< one ingredient instead of the picture; implies Sharp and Emission
+    Fitted = 1u << 10,  ///< fitted lobes; excludes Course
+    TwoTaps = 1u << 11,  ///< two of them; implies Fitted
 };
 
 inline bool has(Features features, Feature feature) { return (features & Features(feature)) != 0; }
@@ -33,6 +35,9 @@ inline bool has(Features features, Feature feature) { return (features & Feature
 /// light's prefiltered levels.
 Features features_of(const Material& material, const std::bitset<kMapSlots>& bound, const View& view,
                      float sharpest_roughness);
+
+/// Of those, what the reference's shader reads: maps and emission.
+Features reference_features(Features features);
 
 /// Every value features_of can return.
 std::vector<Features> all_features();

@@ -85,6 +85,12 @@ T* row_of(Image& image, int y) {
     return reinterpret_cast<T*>(image.bytes.data()) + std::size_t(y) * image.width * image.channels;
 }
 
+/// Unit; (0, 0, 1) for what has no direction.
+glm::vec3 direction_or_up(glm::vec3 sum) {
+    const float size2 = glm::dot(sum, sum);
+    return size2 > 1e-12f ? sum / std::sqrt(size2) : glm::vec3(0.0f, 0.0f, 1.0f);
+}
+
 /// One row as numbers that may be averaged.
 void decode_row(const Image& image, int y, Meaning meaning, float* out) {
     const int count = image.width * image.channels;
@@ -107,17 +113,27 @@ void decode_row(const Image& image, int y, Meaning meaning, float* out) {
         std::memcpy(out, row_of<float>(image, y), std::size_t(count) * sizeof(float));
     }
     if (meaning != Meaning::Direction) return;
-    for (int i = 0; i < count; i += image.channels)
-        for (int c = 0; c < 3; ++c) out[i + c] = 2.0f * out[i + c] - 1.0f;
+    for (int i = 0; i < count; i += image.channels) {
+        const glm::vec3 unit = direction_or_up(2.0f * glm::vec3(out[i], out[i + 1], out[i + 2]) - 1.0f);
+        for (int c = 0; c < 3; ++c) out[i + c] = unit[c];
+    }
 }
 
-/// In place: averaged directions to unit ones, coded 0…1; (0, 0, 1) where they cancel.
+/// What an average of unit normals, of that squared length, adds to alpha²: 1/2κ of the von Mises-Fisher lobe
+/// with the same mean, κ = (3R − R³)/(1 − R²) (Banerjee et al. 2005).
+float spread_of(float length2) {
+    const float R2 = std::clamp(length2, 0.0f, 1.0f);
+    const float R = std::sqrt(R2);
+    return std::min(0.5f * (1.0f - R2) / std::max(R * (3.0f - R2), 1e-3f), 1.0f);
+}
+
+/// In place: averaged directions to unit ones, coded 0…1, and alpha = 1 − √spread.
 void normalize_row(float* row, int width, int channels) {
     for (int i = 0; i < width * channels; i += channels) {
         const glm::vec3 sum(row[i], row[i + 1], row[i + 2]);
-        const float size2 = glm::dot(sum, sum);
-        const glm::vec3 unit = size2 > 1e-12f ? sum / std::sqrt(size2) : glm::vec3(0.0f, 0.0f, 1.0f);
+        const glm::vec3 unit = direction_or_up(sum);
         for (int c = 0; c < 3; ++c) row[i + c] = 0.5f * unit[c] + 0.5f;
+        row[i + 3] = 1.0f - std::sqrt(spread_of(glm::dot(sum, sum)));
     }
 }
 
@@ -277,6 +293,13 @@ Image with_third_axis(const Image& image) {
     return result;
 }
 
+/// A normal map's own alpha means nothing; that of its smaller levels is spread, of which the full size has
+/// none.
+void clear_alpha(Image& image) {
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) set_texel(image, x, y, 3, 1.0f);
+}
+
 void make_finite(Image& image) {
     if (image.type != PixelType::F32) return;
     auto* values = row_of<float>(image, 0);
@@ -308,6 +331,7 @@ MapLevels make_map_levels(const Image& image, MapKind kind, ColorSpace color_spa
         top = with_third_axis(top);
     else if (top.channels == 3 || (top.channels < 3 && (result.srgb || kind == MapKind::Normal)))
         top = spread_to_four(top);
+    if (kind == MapKind::Normal && image.channels == 4) clear_alpha(top);
     result.levels.push_back(std::move(top));
     const Meaning meaning = kind == MapKind::Normal ? Meaning::Direction
                             : result.srgb           ? Meaning::SrgbLight

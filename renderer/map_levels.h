@@ -19,10 +19,11 @@ struct MapLevels {
 
 enum class MapKind { Color, Data, Normal };
 
-/// Mip maps averaged in linear light (Color), as numbers (Data), or as directions and renormalised (Normal).
-/// Any size. color_space matters for Color in U8 and U16 only: floating-point pictures hold linear light,
-/// whatever they are called. Grey stays one channel. Numbers that are not finite become 0, those beyond a
-/// half float's range its limit.
+/// Mip maps averaged in linear light (Color), as numbers (Data), or as directions and renormalised (Normal):
+/// their alpha is 1 − √spread, spread what the normals that were averaged add to a surface's alpha² (0 at
+/// full size). Any size. color_space matters for Color in U8 and U16 only: floating-point pictures hold
+/// linear light, whatever they are called. Grey stays one channel. Numbers that are not finite become 0,
+/// those beyond a half float's range its limit.
 MapLevels make_map_levels(const Image& image, MapKind kind, ColorSpace color_space);
 
 /// The kind of map a slot takes.

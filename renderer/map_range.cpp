@@ -1,6 +1,7 @@
 #include "renderer/map_range.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace patina {
@@ -41,17 +42,67 @@ ChannelRanges ranges_of(const MapLevels& map, float scale) {
     return ranges;
 }
 
+constexpr float kFlat = 1.01f / 255.0f;  ///< of a normal's x and y: no code is nearer to 0 than half of one
+
+bool is_single(const ChannelRanges& map, int channels) {
+    return std::all_of(map.begin(), map.begin() + channels,
+                       [](const ValueRange& each) { return each.is_single(); });
+}
+
+bool is_flat(const ChannelRanges& normals) {
+    const auto is_zero = [](const ValueRange& each) { return std::abs(2.0f * each.low - 1.0f) <= kFlat; };
+    return is_single(normals, 4) && is_zero(normals[0]) && is_zero(normals[1]) && normals[3].low == 1.0f;
+}
+
+bool collapse(ScalarSlot& slot, const ChannelRanges& map) {
+    const ValueRange range = scalar_range(slot, map);
+    if (range.is_single()) slot.value = range.low;
+    return range.is_single();
+}
+
+bool collapse(ColorSlot& slot, const ChannelRanges& map) {
+    if (!is_single(map, 3)) return false;
+    slot.value *= glm::vec3(map[0].low, map[1].low, map[2].low);
+    return true;
+}
+
+bool collapse(Material& material, MapSlot slot, const ChannelRanges& map) {
+    switch (slot) {
+        case MapSlot::Albedo:
+            return collapse(material.albedo, map);
+        case MapSlot::Roughness:
+            return collapse(material.roughness, map);
+        case MapSlot::Metallic:
+            return collapse(material.metallic, map);
+        case MapSlot::Ao:
+            return collapse(material.ao, map);
+        case MapSlot::Normal:
+            return is_flat(map);
+        case MapSlot::Emission:
+            return collapse(material.emission, map);
+    }
+    return false;
+}
+
 }  // namespace
 
 ChannelRanges channel_ranges(const MapLevels& map) {
     switch (map.levels.at(0).type) {
-        case PixelType::U8:
-            return ranges_of<std::uint8_t>(map, 1.0f / 255.0f);
+        case PixelType::U8: {
+            ChannelRanges ranges = ranges_of<std::uint8_t>(map, 1.0f / 255.0f);
+            for (int c = 0; c < 3 && map.srgb; ++c)
+                ranges[c] = {srgb_to_linear(ranges[c].low), srgb_to_linear(ranges[c].high)};
+            return ranges;
+        }
         case PixelType::U16:
             return ranges_of<std::uint16_t>(map, 1.0f / 65535.0f);
         default:
             return ranges_of<float>(map, 1.0f);
     }
+}
+
+void keep_one_texel_of_constant(MapLevels& map, const ChannelRanges& ranges) {
+    if (is_single(ranges, 4)) map.levels.erase(map.levels.begin(), map.levels.end() - 1);
 }
 
 ValueRange scalar_range(const ScalarSlot& slot, const std::optional<ChannelRanges>& map) {
@@ -62,6 +113,13 @@ ValueRange scalar_range(const ScalarSlot& slot, const std::optional<ChannelRange
                             : ValueRange{slot.value * held.low, slot.value * held.high};
     }
     return {std::clamp(range.low, 0.0f, 1.0f), std::clamp(range.high, 0.0f, 1.0f)};
+}
+
+Collapsed collapsed(const Material& material, const MapRanges& maps) {
+    Collapsed result{.material = material, .slots = {}};
+    for (std::size_t slot = 0; slot < maps.size(); ++slot)
+        if (maps[slot]) result.slots[slot] = collapse(result.material, MapSlot(slot), *maps[slot]);
+    return result;
 }
 
 }  // namespace patina

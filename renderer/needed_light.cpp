@@ -1,8 +1,10 @@
 #include "renderer/needed_light.h"
 
+#include "renderer/brdf.h"
 #include "renderer/features.h"
 #include "renderer/gl/brdf_table.h"
 #include "renderer/ibl/bake.h"
+#include "renderer/lobes/lobe_table.h"
 #include "renderer/uniforms.h"
 
 #include <algorithm>
@@ -38,8 +40,24 @@ float single_scattering_limit() {
     return limit;
 }
 
+/// The reference is drawn as fitted until it is there.
+bool is_fitted(const View& view) {
+    return view.shading == Shading::Fitted || view.shading == Shading::Reference;
+}
+
 /// Levels that lobes of these roughnesses look up, before clamping to those there are.
-ValueRange looked_up(const View&, ValueRange roughness) { return roughness; }
+ValueRange looked_up(const View& view, ValueRange roughness) {
+    if (!is_fitted(view))
+        return {std::max(roughness.low, kSharpestLevel), std::max(roughness.high, kSharpestLevel)};
+    // Falls to kCoreReach · kSharpestLevel and rises again.
+    const float from = brdf::tail_roughness(roughness.low, kSharpestLevel);
+    const float to = brdf::tail_roughness(roughness.high, kSharpestLevel);
+    const float turn = brdf::kCoreReach * kSharpestLevel;
+    const float low = roughness.low < turn && roughness.high > turn ? turn : std::min(from, to);
+    const float high = std::max(from, to);
+    const LobeReach reach = lobe_reach(low, high, view.quality == Quality::High);
+    return {low * reach.sharpest, high * reach.widest};
+}
 
 /// What the surface's roughness becomes: normals that a pixel averages widen it. Their spread is 1 − alpha of
 /// the normal map, squared, and adds to roughness⁴.
@@ -57,6 +75,8 @@ bool is_black(const ColorSlot& albedo) { return albedo.value == glm::vec3(0.0f);
 
 bool needs_irradiance(const Material& material, ValueRange metallic, ValueRange roughness, const View& view) {
     const bool diffuse = metallic.low < 1.0f && !is_black(material.albedo);
+    const bool fitted = is_fitted(view) && roughness.high > kMirrorRoughness;
+    if (fitted && view.debug != DebugView::Diffuse) return true;
     const bool multiple = view.shading != Shading::Course && roughness.high > single_scattering_limit();
     return (diffuse && view.debug != DebugView::Specular) || (multiple && view.debug != DebugView::Diffuse);
 }
@@ -101,9 +121,7 @@ NeededLight needed_light(const Material& material, const MapRanges& maps, const 
         widened(scalar_range(material.roughness, maps[std::size_t(MapSlot::Roughness)]), material, maps);
     needed.irradiance = needs_irradiance(material, metallic, roughness, view);
     if (roughness.high <= kMirrorRoughness || view.debug == DebugView::Diffuse) return needed;
-    const ValueRange lobes = {std::max(roughness.low, kSharpestLevel),
-                              std::max(roughness.high, kSharpestLevel)};
-    const ValueRange levels = looked_up(view, lobes);
+    const ValueRange levels = looked_up(view, roughness);
     needed.roughness.push_back(
         {std::clamp(levels.low, kSharpestLevel, 1.0f), std::clamp(levels.high, kSharpestLevel, 1.0f)});
     return needed;

@@ -9,6 +9,7 @@
 #include "renderer/core/camera.h"
 #include "renderer/core/environment.h"
 #include "renderer/core/image.h"
+#include "renderer/core/ledger.h"
 #include "renderer/core/mesh.h"
 #include "renderer/core/view.h"
 #include "renderer/gl/light_levels.h"
@@ -47,6 +48,7 @@ struct Scene {
 
 /// Where a picture is drawn: linear radiance and the display picture (8-bit sRGB-encoded).
 struct RenderTarget;
+struct ReferenceTarget;
 using TargetHandle = std::shared_ptr<RenderTarget>;
 /// How radiance is kept: half floats end at 65504 and are what a screen needs, full floats are for measuring
 /// and saving.
@@ -59,6 +61,13 @@ struct Upload {
         step;                                          ///< copies about so many bytes; true when all is there
     std::function<std::shared_ptr<const T>()> finish;  ///< copies what is left and hands it over; call once
 };
+
+/// What upload_environment is given for pictures: the standard levels, compact lights apart.
+inline BakeSettings drawing_bake_settings() {
+    BakeSettings settings;
+    settings.extract_lights = true;
+    return settings;
+}
 
 class Renderer {
 public:
@@ -81,9 +90,29 @@ public:
     /// samples: MSAA, clamped to what the driver offers; size ≥ 1×1.
     TargetHandle make_target(glm::ivec2 size_px, int samples = 4,
                              TargetPrecision precision = TargetPrecision::Half);
+    /// Shading::Reference is drawn as split sum here: the reference gathers over many draws (reference.h).
     /// Without an environment only emission and a plain background are seen, without a mesh only the
     /// background. The plain background is shown as it is: neither exposure nor tone mapping touch it.
     void draw(const Scene& scene, RenderTarget& target);
+    /// The same twice; the milliseconds that the GPU took for the shorter one.
+    double timed_draw(const Scene& scene, RenderTarget& target);
+
+    /// Another way to shade, kept to be measured against: run-time filtered importance sampling with so many
+    /// samples; 0: the dominant direction instead of R (shaders/rivals.frag.glsl).
+    void draw_rival(const Scene& scene, RenderTarget& target, int samples);
+
+    /// One slice of the reference picture: the points uploaded last, through a picture moved by jitter_px.
+    /// Reference (reference.h) puts the slices together.
+    struct ReferenceSlice {
+        int replicate = 0;
+        int points = 1;
+        float weight = 1.0f;        ///< 0…1, what this slice counts in the sum
+        double total = 0.0;         ///< the light sampler's
+        glm::vec2 jitter_px{0.0f};  ///< −½…½
+    };
+    void draw_reference(const Scene& scene, ReferenceTarget& target, const ReferenceSlice& slice);
+    /// The display picture of what the target's radiance holds.
+    void show(const View& view, const RenderTarget& target);
 
     /// Compiles what is not compiled yet: the first picture of a new kind of material then does not stutter.
     void prepare(const Scene& scene);
@@ -100,6 +129,9 @@ public:
     /// An 8-bit picture as a texture for the interface (thumbnails); released with the handle.
     MapHandle upload_thumbnail(const Image& image);
     static std::uintptr_t texture_of(const GpuMap& map);
+
+    /// What was done for pictures drawn with this renderer; whoever loads or bakes for it adds to it.
+    WorkLedger& work();
 
 private:
     struct State;

@@ -1,10 +1,13 @@
 #include "renderer/uniforms.h"
 
+#include "renderer/ibl/kernel.h"
+
 #include <glm/glm.hpp>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 namespace patina {
 
@@ -12,6 +15,12 @@ namespace {
 
 using glm::vec3;
 using glm::vec4;
+
+/// ∫ D·NoL of the backdrop's roughness: what a level's kernel is divided by.
+float backdrop_integral() {
+    static const double without_pi = ggx_kernel_integral(kBackdropRoughness * kBackdropRoughness);
+    return float(without_pi / std::numbers::pi);
+}
 
 float exposure_factor(const View& view) { return std::exp2(std::clamp(view.exposure_ev, -64.0f, 64.0f)); }
 
@@ -74,16 +83,27 @@ blocks::FrameBlock make_frame_block(const Camera& camera, const View& view, glm:
     block.env_scale = vec4(light.panorama_scale * exposure, light.levels_scale * exposure,
                            light.irradiance_scale * exposure, light.texels_per_radian);
     set_levels(block, light);
-    const int lights = std::min(int(light.lights.size()), blocks::kMaxLights);
-    for (int i = 0; i < lights; ++i) {
-        const ExtractedLight& source = light.lights[i];
-        const float widening = 0.25f * source.angular_radius_rad * source.angular_radius_rad;
+    const auto& sources = light.lights.empty() ? light.panorama_lights : light.lights;
+    const int count = std::min(int(sources.size()), blocks::kMaxLights);
+    for (int i = 0; i < count; ++i) {
+        const ExtractedLight& source = sources[i];
+        const float widening = 0.125f * source.angular_radius_rad * source.angular_radius_rad;
         // glm's columns are these rows, so its product is the transposed one: from environment to world.
         block.light_direction[i] = vec4(rows * source.direction, widening);
         block.light_irradiance[i] = vec4(source.irradiance * exposure, 0.0f);
     }
-    block.counts = vec4(float(lights), float(int(view.debug)), 0.0f, 0.0f);
+    block.counts = vec4(light.lights.empty() ? 0.0f : float(count), float(int(view.debug)), float(count),
+                        1.0f / backdrop_integral());
     return block;
+}
+
+void move_picture(blocks::FrameBlock& block, glm::vec2 offset) {
+    for (vec4& column : block.view_projection) {
+        column.x += offset.x * column.w;
+        column.y += offset.y * column.w;
+    }
+    const vec3 moved = offset.x * vec3(block.ray_right) + offset.y * vec3(block.ray_up);
+    block.ray_center -= vec4(moved, 0.0f);
 }
 
 blocks::MaterialBlock make_material_block(const Material& material, Features features, float exposure) {
@@ -106,7 +126,7 @@ blocks::MaterialBlock make_material_block(const Material& material, Features fea
     const glm::vec2 mirror{scale.x < 0.0f ? -1.0f : 1.0f, scale.y < 0.0f ? -1.0f : 1.0f};
     const float strength = material.normal.value;
     const float green = material.normal.convention == NormalConvention::DirectX ? -strength : strength;
-    block.normal_x = vec4(mirror.x * c * strength, -mirror.x * s * green, 0.0f, 0.0f);
+    block.normal_x = vec4(mirror.x * c * strength, -mirror.x * s * green, 0.0f, std::abs(strength));
     block.normal_y = vec4(mirror.y * s * strength, mirror.y * c * green, 0.0f, 0.0f);
     return block;
 }

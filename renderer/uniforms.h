@@ -26,11 +26,15 @@ struct LightLayout {
     int layers = 1;
     std::vector<float> roughness;  ///< of the levels, ascending, at most blocks::kMaxLevels
     float sharpest = 1.0f;         ///< lobes sharper than this are made up from the panorama
-    std::vector<ExtractedLight> lights;
+    std::vector<ExtractedLight> lights;           ///< shaded as lights
+    std::vector<ExtractedLight> panorama_lights;  ///< kept apart by the panorama
 };
 
 blocks::FrameBlock make_frame_block(const Camera& camera, const View& view, glm::ivec2 size_px,
                                     const LightLayout& light, float largest_radiance);
+
+/// Everything is seen offset further to the right and up, in halves of the picture's sides.
+void move_picture(blocks::FrameBlock& block, glm::vec2 offset);
 
 /// features: which maps are read. exposure: factor on what the surface emits.
 blocks::MaterialBlock make_material_block(const Material& material, Features features, float exposure);

@@ -182,11 +182,41 @@ void draw_places(PanelContext& context) {
     }
 }
 
+/// A name is asked for under the button; Enter makes the folder and goes into it.
+void draw_new_folder(PanelContext& context) {
+    FileBrowser& browser = context.browser;
+    if (icon_button(context, "browser.new_folder", icon::kPlus, "Make a new folder here.")) {
+        browser.new_folder.clear();
+        ImGui::OpenPopup("##new_folder");
+    }
+    browser.naming_folder = ImGui::BeginPopup("##new_folder");
+    if (!browser.naming_folder) return;
+    const bool entered =
+        text_field(context, "browser.new_folder_name", browser.new_folder, "The name of the new folder.",
+                   {.hint = "Name of the new folder",
+                    .width = px(180),
+                    .take_focus = ImGui::IsWindowAppearing(),
+                    .flags = ImGuiInputTextFlags_EnterReturnsTrue});
+    const bool typed = !browser.new_folder.empty();
+    ImGui::SameLine();
+    const bool pressed = button(context, "browser.make_folder", "Make", "Enter does the same.",
+                                {.emphasis = Emphasis::Primary, .enabled = typed});
+    if (typed && (pressed || entered)) {
+        context.requests.push_back(request::MakeFolder{join(browser.folder, browser.new_folder)});
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+}
+
 void draw_folder_line(PanelContext& context) {
     FileBrowser& browser = context.browser;
     if (icon_button(context, "browser.parent", icon::kParent, "The folder above (Backspace)."))
         enter_folder(context, parent_of(browser.folder));
     ImGui::SameLine(0.0f, px(4));
+    if (saves(browser.purpose)) {
+        draw_new_folder(context);
+        ImGui::SameLine(0.0f, px(4));
+    }
     if (browser.typed_folder.empty()) browser.typed_folder = browser.folder;
     const float search = px(170);
     const float width =
@@ -334,6 +364,7 @@ void open_browser(PanelContext& context, BrowserPurpose purpose, MapSlot slot) {
     browser.slot = slot;
     browser.search.clear();
     browser.selected.clear();
+    browser.naming_folder = false;
     browser.extensions.clear();
     if (saves(purpose)) {
         browser.file_name = context.material.name;
@@ -360,7 +391,7 @@ void draw_file_browser(PanelContext& context, const Rect& rect) {
     draw_entries(context, entries, 0.0f);
     ImGui::EndChild();
     if (context.browser.open) draw_answers(context);
-    if (context.browser.open) handle_keys(context, entries);
+    if (context.browser.open && !context.browser.naming_folder) handle_keys(context, entries);
     end_region();
 }
 

@@ -23,6 +23,7 @@ inline constexpr const char* kInfo = "\uf05a";
 inline constexpr const char* kLight = "\uf185";
 inline constexpr const char* kLocate = "\uf041";
 inline constexpr const char* kMaterial = "\uf1fc";
+inline constexpr const char* kPlus = "\uf067";
 inline constexpr const char* kReload = "\uf021";
 inline constexpr const char* kReset = "\uf0e2";
 inline constexpr const char* kSearch = "\uf002";

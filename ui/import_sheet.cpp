@@ -144,6 +144,11 @@ void draw_import_sheet(PanelContext& context) {
     for (const std::string& note : sheet.notes) text_wrapped(note, color::kMuted, Face::Small);
     checkbox(context, "import.rename", "Name the material after the set", "Otherwise it keeps its name.",
              sheet.rename_material);
+    const std::string on_mesh = "Show it on " + std::string(file_name_of(sheet.mesh));
+    if (!sheet.mesh.empty())
+        checkbox(context, "import.mesh", on_mesh.c_str(),
+                 "The mesh that lies with the maps; otherwise the material stays on the present one.",
+                 sheet.use_mesh);
     draw_answers(context, sheet, list_open);
     end_question();
 }

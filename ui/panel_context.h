@@ -8,6 +8,7 @@
 #include "materials/material.h"
 #include "renderer/core/camera.h"
 #include "renderer/core/comparison.h"
+#include "renderer/core/ledger.h"
 #include "renderer/core/view.h"
 #include "ui/recorder.h"
 #include "ui/requests.h"
@@ -137,6 +138,8 @@ struct ImportSheet {
     std::vector<ImportRow> rows;
     std::vector<std::string> notes;  ///< "height.png has no slot and is left out"
     bool rename_material = true;     ///< give the material the set's name
+    std::string mesh;                ///< a mesh that lay with the maps; empty: none, or several
+    bool use_mesh = true;            ///< show the material on it
 };
 
 // ---- the file browser ----
@@ -186,7 +189,9 @@ struct FileBrowser {
     std::string selected;   ///< path
     std::string file_name;  ///< SavePreset, ExportRender
     std::string typed_folder;
-    bool show_all = false;  ///< also files of other types
+    std::string new_folder;      ///< the name being typed for one
+    bool naming_folder = false;  ///< the keyboard belongs to it
+    bool show_all = false;       ///< also files of other types
 };
 
 // ---- the interface's own state, nothing of the document ----
@@ -201,7 +206,36 @@ struct BarDrag {
     bool fine = false;
 };
 
+/// What one side of the viewport shows: the picture as the view is set, one shading mode, or how far the
+/// view's shading is from the reference.
+struct Layer {
+    enum Kind { View, Mode, Error, Flip };
+    Kind kind = View;
+    Shading mode = Shading::Reference;
+    bool operator==(const Layer&) const = default;
+};
+struct AccuracySettings {
+    Layer left;  ///< the whole viewport without a split
+    Layer right{Layer::Mode, Shading::Reference};
+    bool split = false;
+    float split_at = 0.5f;  ///< of the viewport's width
+    bool meter = false;     ///< the accuracy drawer is open: measure
+};
+inline constexpr double kErrorWhite = 0.2;  ///< relative error at the heat map's end
+inline constexpr double kFlipWhite = 0.5;
+/// Of the reference that gathers and of the last measurement.
+struct AccuracyStatus {
+    int samples = 0;
+    double half_width = 0.0;  ///< relative 95 % half-width that 95 of 100 pixels keep; 0: not known yet
+    bool converged = false, done = false;
+    bool measured = false;
+    double rms = 0.0, p95 = 0.0, max = 0.0, flip = 0.0;
+    double frame_ms = 0.0;  ///< GPU time of the shading pass
+};
+
 struct UiState {
+    AccuracySettings accuracy;
+    bool split_drag = false;          ///< the split's line is held
     std::string left_tab, right_tab;  ///< panel ids; empty: the first
     std::string drawer;               ///< open bottom panel's id; empty: closed
     bool show_library = true;
@@ -242,6 +276,12 @@ struct Drop {
 struct Viewport {
     TextureId texture = 0;  ///< the display picture; 0: nothing to show yet
     bool bottom_up = true;  ///< its first row is the bottom (OpenGL)
+    struct Picture {
+        TextureId texture = 0;  ///< 0: the display picture stands in
+        bool bottom_up = true;
+    };
+    Picture left, right;  ///< what UiState::accuracy asks for
+    AccuracyStatus accuracy;
 };
 
 /// One view of the sheet, in the order of places_of().
@@ -303,6 +343,7 @@ struct PanelContext {
     std::vector<SheetCell> sheet_cells;
     std::string sheet_file;  ///< empty: never saved
     bool sheet_unsaved = false;
+    const WorkLedger* work = nullptr;  ///< counted since the start, or since request::ClearWork
     const UnsavedQuestion* unsaved = nullptr;
     const RecoveryQuestion* recovery = nullptr;
     const Drop* drop = nullptr;  ///< dropped since the last frame; panels turn it into request::Dropped

@@ -113,6 +113,12 @@ void draw_view_panel(PanelContext& context) {
     choice_row(context,
                {.name = "view.shading", .text = "Shading", .tooltip = "Which formulas shade the picture."},
                kShadings, view.shading, saved.shading);
+    if (view.shading == Shading::Fitted)
+        choice_row(context,
+                   {.name = "view.quality",
+                    .text = "Quality",
+                    .tooltip = "How closely fitted lobes follow the full integral."},
+                   kQualities, view.quality, saved.quality);
     choice_row(context,
                {.name = "view.tonemap",
                 .text = "Tone mapping",

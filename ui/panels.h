@@ -16,6 +16,16 @@ void draw_view_panel(PanelContext& context);
 void draw_sheet_panel(PanelContext& context);
 // Drawer.
 void draw_log_panel(PanelContext& context);
+void draw_work_panel(PanelContext& context);
+void draw_accuracy_panel(PanelContext& context);
+
+// The viewport's part of the accuracy meter (panel_accuracy.cpp).
+/// The display picture or what the settings ask for instead of it, on both sides of the split.
+void draw_layers(PanelContext& context, const Rect& rect);
+/// The split's line with its grip, the maps' legends.
+void draw_layer_marks(PanelContext& context, const Rect& rect);
+/// True while the mouse holds the split's line, which then follows it: nothing else may take the drag.
+bool drag_split(PanelContext& context, const Rect& rect);
 
 // Frame of the window.
 float menu_height();

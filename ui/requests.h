@@ -118,7 +118,8 @@ struct CancelJob {
     std::uint64_t id = 0;
 };
 struct ClearLog {};
-struct CopyText {  ///< to the clipboard
+struct ClearWork {};  ///< the work ledger counts from here
+struct CopyText {     ///< to the clipboard
     std::string text;
 };
 /// Open PanelContext::browser's folder, or another one; the app fills browser.folder, entries and error.
@@ -139,8 +140,8 @@ using Request =
                  request::ApplyImport, request::CancelImport, request::LoadEnvironment, request::LoadMesh,
                  request::ExportRender, request::ShowSheet, request::ChangeSheet, request::OpenSheet,
                  request::SaveSheet, request::SaveSheetAs, request::SetPhoto, request::PickCard,
-                 request::ExportReport, request::CancelJob, request::ClearLog, request::CopyText,
-                 request::ListFolder, request::MakeFolder>;
+                 request::ExportReport, request::CancelJob, request::ClearLog, request::ClearWork,
+                 request::CopyText, request::ListFolder, request::MakeFolder>;
 using Requests = std::vector<Request>;
 
 /// The first request of type T, or nullptr.

@@ -259,6 +259,7 @@ std::vector<SheetRow> sheet_rows(bool (*belongs)(const Shortcut&)) {
         else
             rows.push_back(
                 {key_text(shortcut, mac), std::string(shortcut.title), std::string(shortcut.description)});
+        if (shortcut.action == Action::Shortcuts) rows.back().keys += " or ?";
         last = shortcut.action;
     }
     return rows;
@@ -332,9 +333,9 @@ std::string key_text(const Shortcut& shortcut, bool mac) {
         case KeyF1:
             return text + "F1";
         case KeyPeriod:
-            return text + "Period";
+            return text + ".";
         case KeyComma:
-            return text + "Comma";
+            return text + ",";
         case KeyEqual:
             return text + "+";
         case KeyMinus:

@@ -25,6 +25,10 @@ void handle_view_mouse(PanelContext& context, const Rect& rect) {
         ui.rotating_light = io.MouseDown[ImGuiMouseButton_Right] || io.KeyCtrl || io.KeysDown[KeyL];
     }
     if (!active) ui.viewport_drag = ui.rotating_light = false;
+    if (!context.sheet && drag_split(context, rect)) {
+        ui.viewport_drag = ui.rotating_light = false;
+        return;
+    }
     if (ui.viewport_drag && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f)) {
         const glm::vec2 moved{io.MouseDelta.x / context.scale, io.MouseDelta.y / context.scale};
         if (ui.rotating_light)
@@ -40,12 +44,10 @@ void handle_view_mouse(PanelContext& context, const Rect& rect) {
 
 namespace {
 
-void draw_picture(const PanelContext& context, const Rect& rect) {
+void draw_picture(PanelContext& context, const Rect& rect) {
     ImDrawList* draw = ImGui::GetWindowDrawList();
     if (context.viewport.texture) {
-        const float v0 = context.viewport.bottom_up ? 1.0f : 0.0f;
-        draw->AddImage(std::bit_cast<ImTextureID>(context.viewport.texture), {rect.x0, rect.y0},
-                       {rect.x1, rect.y1}, {0.0f, v0}, {1.0f, 1.0f - v0});
+        draw_layers(context, rect);
         return;
     }
     const std::string text =
@@ -127,6 +129,7 @@ void draw_viewport(PanelContext& context, const Rect& rect) {
     context.result.viewport_active = context.ui.viewport_drag;
     draw_picture(context, rect);
     draw_overlays(context, rect);
+    draw_layer_marks(context, rect);
     draw_drop_hint(context, rect);
     end_region();
 }

@@ -140,6 +140,9 @@ std::vector<Panel> builtin_panels() {
         {"sheet", "Compare", "Views side by side: presets, lightings, photos and the report.", Side::Right,
          draw_sheet_panel},
         {"log", "Log", "What the program has said.", Side::Bottom, draw_log_panel},
+        {"work", "Work", "What was computed, and what was skipped and why.", Side::Bottom, draw_work_panel},
+        {"accuracy", "Accuracy", "How far the shading is from the reference, and what it costs.",
+         Side::Bottom, draw_accuracy_panel},
     };
 }
 
@@ -164,6 +167,7 @@ void draw_workspace(PanelContext& context) {
         else
             draw_viewport(context, layout.viewport);
     }
+    context.ui.accuracy.meter = context.ui.drawer == "accuracy";
     draw_drawer(context, layout.drawer);
     draw_splitters(context, layout);
     draw_status_line(context, layout.status);

@@ -193,6 +193,8 @@ std::uint64_t most_pixels_per_byte(ImageFormat format) {
             return 64;  // a packet of 128 takes two bytes
         case ImageFormat::Bmp:
             return 130;  // a run of 255 takes two bytes
+        case ImageFormat::OpenExr:
+            return 33000;  // DWA keeps a half for a block of 64, and deflate packs 1032 bytes
         default:
             return 0;
     }
@@ -239,6 +241,16 @@ ImageFormat image_format_of_extension(std::string_view extension) {
 
 std::string_view image_format_id(ImageFormat format) { return kIds[static_cast<std::size_t>(format)]; }
 
+bool png_has_camera_data(Bytes bytes) {
+    for (std::size_t at = 8; at + 12 <= bytes.size();) {
+        const auto is = [&](const char* name) { return std::memcmp(bytes.data() + at + 4, name, 4) == 0; };
+        if (is("eXIf")) return true;
+        if (is("IDAT") || is("IEND")) return false;
+        at += 12 + std::size_t{big_endian_32(bytes, at)};
+    }
+    return false;
+}
+
 std::string image_structure_problem(ImageFormat format, Bytes bytes) {
     if (format == ImageFormat::Png) return png_problem(bytes);
     if (format == ImageFormat::Jpeg) return jpeg_problem(bytes);
@@ -246,7 +258,48 @@ std::string image_structure_problem(ImageFormat format, Bytes bytes) {
     return {};
 }
 
+namespace {
+
+std::uint32_t number_at(Bytes bytes, std::size_t i, int size, bool big_end_first) {
+    std::uint32_t number = 0;
+    for (int k = 0; k < size; ++k)
+        number |= byte_at(bytes, i + std::size_t(k)) << 8 * (big_end_first ? size - 1 - k : k);
+    return number;
+}
+
+/// BITMAPINFOHEADER and its successors; the height of a picture stored from the top is negative.
+std::optional<PromisedSize> promised_by_bmp(Bytes bytes) {
+    if (bytes.size() < 26 || number_at(bytes, 14, 4, false) < 40) return std::nullopt;
+    const auto height = std::int64_t(std::int32_t(number_at(bytes, 22, 4, false)));
+    return PromisedSize{.width = std::int64_t(std::int32_t(number_at(bytes, 18, 4, false))),
+                        .height = height < 0 ? -height : height};
+}
+
+/// ImageWidth and ImageLength of the first directory (TIFF 6.0, section 2); BigTIFF is left to its decoder.
+std::optional<PromisedSize> promised_by_tiff(Bytes bytes) {
+    if (bytes.size() < 8) return std::nullopt;
+    const bool big_end_first = byte_at(bytes, 0) == 'M';
+    const std::uint64_t first = number_at(bytes, 4, 4, big_end_first);
+    if (number_at(bytes, 2, 2, big_end_first) != 42 || first + 2 > bytes.size()) return std::nullopt;
+    PromisedSize size;
+    const std::uint32_t count = number_at(bytes, std::size_t(first), 2, big_end_first);
+    for (std::uint32_t i = 0; i < count && first + 14 + 12 * std::uint64_t(i) <= bytes.size(); ++i) {
+        const auto entry = std::size_t(first + 2 + 12 * std::uint64_t(i));
+        const std::uint32_t tag = number_at(bytes, entry, 2, big_end_first);
+        const int bytes_each = number_at(bytes, entry + 2, 2, big_end_first) == 3 ? 2 : 4;
+        const std::int64_t value = number_at(bytes, entry + 8, bytes_each, big_end_first);
+        if (tag == 256) size.width = value;
+        if (tag == 257) size.height = value;
+    }
+    if (size.width == 0 || size.height == 0) return std::nullopt;
+    return size;
+}
+
+}  // namespace
+
 std::optional<PromisedSize> promised_size(ImageFormat format, Bytes bytes) {
+    if (format == ImageFormat::Bmp) return promised_by_bmp(bytes);
+    if (format == ImageFormat::Tiff) return promised_by_tiff(bytes);
     if (format == ImageFormat::Png && bytes.size() >= 24)
         return PromisedSize{.width = big_endian_32(bytes, 16), .height = big_endian_32(bytes, 20)};
     if (format == ImageFormat::Targa && bytes.size() >= 18)

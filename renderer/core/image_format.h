@@ -25,9 +25,12 @@ std::string_view image_format_id(ImageFormat format);
 struct PromisedSize {
     std::int64_t width = 0, height = 0;
 };
-/// From the headers of PNG and TGA, whose decoders would rather complain in their own words; nothing for the
+/// From the headers of PNG, TGA, BMP and TIFF, whose decoders would rather complain in their own words; nothing for the
 /// others.
 std::optional<PromisedSize> promised_size(ImageFormat format, std::span<const std::byte> bytes);
+
+/// Whether a PNG carries EXIF data (camera, orientation) before its pixels. A part of the file will do.
+bool png_has_camera_data(std::span<const std::byte> bytes);
 
 /// What is wrong with the bytes as a whole, as far as the format's structure tells without decoding; empty
 /// where nothing.

@@ -1,5 +1,6 @@
-// Pictures from and to disk, the only door to OpenImageIO. Every function throws std::runtime_error with one
-// sentence that names the file and the way out; nothing is half written.
+// Pictures from and to disk. PNG, EXR and Radiance HDR are decoded in the program; the other formats by the
+// module patina_images, loaded by the first picture that needs it (on that thread). Every function throws
+// std::runtime_error with one sentence that names the file and the way out; nothing is half written.
 #pragma once
 
 #include "renderer/core/image.h"
@@ -28,8 +29,7 @@ struct LoadedImage {
 };
 
 /// Text stored beside the pixels (PNG text chunks, EXR attributes), in order. Names of one's own, such as
-/// "patina:preset", come back as they are; some general ones come back renamed (PNG's Description as
-/// ImageDescription).
+/// "patina:preset", come back as they are; camera data under one name whatever the format (ExposureTime).
 using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
 
 /// Reads only the header.

@@ -9,7 +9,9 @@
 
 namespace patina {
 
-enum class Shading { Course, SplitSum };
+enum class Shading { Course, SplitSum, Fitted, Reference };
+/// Of fitted shading: one tap of the environment and the irradiance, or two taps.
+enum class Quality { Standard, High };
 enum class Tonemap { None, Neutral, Aces };
 enum class Background { Environment, Blurred, Plain };
 /// Final is the shaded picture; the others show one ingredient.
@@ -23,10 +25,16 @@ struct View {
     Tonemap tonemap = Tonemap::Neutral;
     Background background = Background::Environment;
     glm::vec3 plain_color{0.18f};         ///< linear, the plain background
-    Shading shading = Shading::SplitSum;
+    Shading shading = Shading::Fitted;
+    Quality quality = Quality::Standard;  ///< of fitted shading
     DebugView debug = DebugView::Final;
     bool operator==(const View&) const = default;
 };
+
+/// Whether the picture gathers over many draws instead of being drawn at once.
+inline bool is_reference(const View& view) {
+    return view.shading == Shading::Reference && view.debug == DebugView::Final;
+}
 
 template <class T>
 struct Named {
@@ -40,6 +48,14 @@ inline constexpr std::array kShadings{
     Named<Shading>{Shading::Course, "course", "Course", "The lecture's formulas to the letter, its simplifications included."},
     Named<Shading>{Shading::SplitSum, "split-sum", "Split sum",
                    "Prefiltered light times a BRDF table, with the energy of multiple scattering put back."},
+    Named<Shading>{Shading::Fitted, "fitted", "Fitted",
+                   "Reads the light where the true lobe lies and as wide as it is: near the full integral at split sum's price."},
+    Named<Shading>{Shading::Reference, "reference", "Reference",
+                   "The reflectance integral itself, sampled until it stands still: what the other modes approximate."},
+};
+inline constexpr std::array kQualities{
+    Named<Quality>{Quality::Standard, "standard", "Standard", "Fitted lobes with one look into the prefiltered light."},
+    Named<Quality>{Quality::High, "high", "High", "Fitted lobes with two looks: closer to the integral, at half as much again."},
 };
 inline constexpr std::array kTonemaps{
     Named<Tonemap>{Tonemap::None, "none", "None", "Linear values clipped at 1, then sRGB: best for comparing with a photo."},

@@ -33,12 +33,14 @@ void make_panorama(const PanoramaLevels& panorama, GpuEnvironment& result) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, GLint(panorama.levels.size()) - 1);
     result.panorama_scale = std::ldexp(1.0f, panorama.exponent);
+    result.panorama_lights = panorama.lights;
     result.texels_per_radian = float(panorama.levels[0].height / M_PI);
 }
 
 void share_panorama(const GpuEnvironment& other, GpuEnvironment& result) {
     result.panorama = other.panorama;
     result.panorama_scale = other.panorama_scale;
+    result.panorama_lights = other.panorama_lights;
     result.texels_per_radian = other.texels_per_radian;
 }
 
@@ -84,6 +86,7 @@ EnvironmentWriter::EnvironmentWriter(const PreparedLight& light) {
     make_levels(light.levels, environment_);
     make_irradiance(light.levels, environment_);
     environment_.lights = light.levels.lights;
+    environment_.panorama_lights = light.panorama.lights;
     check_memory("the light");
 }
 

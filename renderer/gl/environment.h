@@ -22,7 +22,8 @@ struct GpuEnvironment {
     int layers = 1;
     std::vector<float> roughness;  ///< of each level, ascending
     float sharpest = 1.0f;         ///< lobes sharper than this are made up from the panorama
-    std::vector<ExtractedLight> lights;
+    std::vector<ExtractedLight> lights;           ///< to be shaded: the levels are without them
+    std::vector<ExtractedLight> panorama_lights;  ///< those the panorama's alpha holds
 };
 
 namespace gl {

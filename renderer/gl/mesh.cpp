@@ -74,19 +74,21 @@ bool MeshWriter::step(const PreparedMesh& mesh, std::size_t byte_budget) {
            GLsizeiptr(index_bytes_) == bytes_of(mesh.indices);
 }
 
-void draw_mesh(const GpuMesh& mesh, const glm::vec3& eye) {
-    if (mesh.index_count == 0) return;
+int draw_mesh(const GpuMesh& mesh, const glm::vec3& eye) {
+    if (mesh.index_count == 0) return 0;
     glBindVertexArray(mesh.layout.name());
     glEnable(GL_CULL_FACE);
     glFrontFace(GL_CCW);
     // What faces the viewer mostly hides what does not: drawn first, it leaves the rest to the depth test.
     glCullFace(GL_BACK);
     glDrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
-    if (!mesh.is_closed || glm::length(eye) < 1.01f * mesh.radius) {
+    const bool back_seen = !mesh.is_closed || glm::length(eye) < 1.01f * mesh.radius;
+    if (back_seen) {
         glCullFace(GL_FRONT);
         glDrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
     }
     glDisable(GL_CULL_FACE);
+    return back_seen ? 2 : 1;
 }
 
 }  // namespace patina::gl

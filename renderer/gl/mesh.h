@@ -35,8 +35,8 @@ private:
     GpuMesh mesh_;
     std::size_t vertex_bytes_ = 0, index_bytes_ = 0;  ///< copied so far
 };
-/// Both sides; of a closed mesh seen from outside only the front.
-void draw_mesh(const GpuMesh& mesh, const glm::vec3& eye);
+/// Both sides; of a closed mesh seen from outside only the front. Gives the number of draw calls.
+int draw_mesh(const GpuMesh& mesh, const glm::vec3& eye);
 
 }  // namespace gl
 }  // namespace patina

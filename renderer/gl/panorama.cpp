@@ -1,8 +1,10 @@
 #include "renderer/gl/panorama.h"
 
 #include "renderer/gl/half.h"
+#include "renderer/ibl/lights.h"
 
 #include <glm/common.hpp>
+#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +16,7 @@ namespace {
 struct Plane {
     int width = 0;
     int height = 0;
-    std::vector<glm::vec3> texels;
+    std::vector<glm::vec4> texels;
 };
 
 /// How the source texels of one axis share out among half as many: three taps of a box filter, two where it
@@ -48,11 +50,11 @@ Plane halved(const Plane& source) {
     for (int y = 0; y < result.height; ++y) {
         for (int j = 0; j < 3; ++j) {
             if (rows[y].weight[j] == 0.0f) continue;
-            const glm::vec3* from = &source.texels[std::size_t(rows[y].first + j) * source.width];
-            glm::vec3* to = &result.texels[std::size_t(y) * result.width];
+            const glm::vec4* from = &source.texels[std::size_t(rows[y].first + j) * source.width];
+            glm::vec4* to = &result.texels[std::size_t(y) * result.width];
             for (int x = 0; x < result.width; ++x) {
                 const Taps& tap = columns[x];
-                glm::vec3 sum = tap.weight[0] * from[tap.first];
+                glm::vec4 sum = tap.weight[0] * from[tap.first];
                 if (tap.weight[1] != 0.0f) sum += tap.weight[1] * from[tap.first + 1];
                 if (tap.weight[2] != 0.0f) sum += tap.weight[2] * from[tap.first + 2];
                 to[x] += rows[y].weight[j] * sum;
@@ -64,11 +66,11 @@ Plane halved(const Plane& source) {
 
 /// Averages a row around the circle over width texels (a real number > 1), each texel over the arc centred on
 /// it.
-void blur_around(glm::vec3* row, int count, double width) {
+void blur_around(glm::vec4* row, int count, double width) {
     width = std::min(width, double(count));
-    std::vector<glm::dvec3> before(std::size_t(count) + 1,
-                                   glm::dvec3(0.0));  // sum of all texels left of an edge
-    for (int x = 0; x < count; ++x) before[x + 1] = before[x] + glm::dvec3(row[x]);
+    std::vector<glm::dvec4> before(std::size_t(count) + 1,
+                                   glm::dvec4(0.0));  // sum of all texels left of an edge
+    for (int x = 0; x < count; ++x) before[x + 1] = before[x] + glm::dvec4(row[x]);
     const auto sum_to = [&](double edge) {  // of the periodic, piecewise constant row
         const double turns = std::floor(edge / count);
         const double inside = edge - turns * count;
@@ -77,8 +79,8 @@ void blur_around(glm::vec3* row, int count, double width) {
     };
     for (int x = 0; x < count; ++x) {
         const double center = x + 0.5;
-        const glm::dvec3 sum = sum_to(center + 0.5 * width) - sum_to(center - 0.5 * width);
-        row[x] = glm::max(glm::vec3(sum / width), glm::vec3(0.0f));
+        const glm::dvec4 sum = sum_to(center + 0.5 * width) - sum_to(center - 0.5 * width);
+        row[x] = glm::max(glm::vec4(sum / width), glm::vec4(0.0f));
     }
 }
 
@@ -99,11 +101,25 @@ PanoramaLevels::Level to_level(const Plane& plane, int exponent) {
     PanoramaLevels::Level level{plane.width, plane.height, {}};
     level.rgba.resize(4 * plane.texels.size());
     const float scale = std::ldexp(1.0f, -exponent);
-    for (std::size_t i = 0; i < plane.texels.size(); ++i) {
-        for (int c = 0; c < 3; ++c) level.rgba[4 * i + c] = gl::to_half(plane.texels[i][c] * scale);
-        level.rgba[4 * i + 3] = gl::to_half(1.0f);
-    }
+    for (std::size_t i = 0; i < plane.texels.size(); ++i)
+        for (int c = 0; c < 4; ++c) level.rgba[4 * i + c] = gl::to_half(plane.texels[i][c] * scale);
     return level;
+}
+
+/// Radiance with the extracted lights apart.
+Plane without_lights(const Environment& environment, std::vector<ExtractedLight>& lights) {
+    Plane plane{environment.width, environment.height, {}};
+    plane.texels.reserve(environment.radiance.size());
+    for (const glm::vec3& texel : environment.radiance) plane.texels.emplace_back(texel, 0.0f);
+    const RadianceStatistics statistics = radiance_statistics(view_of(environment), serial_for);
+    const LightExtraction extraction = extract_lights(environment, statistics, {});
+    for (const auto& texels : extraction.texels)
+        for (const LightTexel& texel : texels)
+            plane.texels[std::size_t(texel.y) * plane.width + texel.x] +=
+                glm::vec4(-texel.excess, (texel.excess.x + texel.excess.y + texel.excess.z) / 3.0f);
+    for (glm::vec4& texel : plane.texels) texel = glm::max(texel, glm::vec4(0.0f));
+    lights = extraction.lights;
+    return plane;
 }
 
 }  // namespace
@@ -119,7 +135,7 @@ PanoramaLevels make_panorama_levels(const Environment& environment, int max_widt
     for (const glm::vec3& texel : environment.radiance)
         largest = std::max({largest, texel.x, texel.y, texel.z});
     result.exponent = half_exponent(largest);
-    Plane plane{environment.width, environment.height, environment.radiance};
+    Plane plane = without_lights(environment, result.lights);
     while (plane.width > max_width || plane.height > max_width) plane = halved(plane);
     result.levels.push_back(to_level(plane, result.exponent));
     while (plane.width > 1 || plane.height > 1) {

@@ -2,7 +2,7 @@
 // isotropic patches of the sphere. Pure; no GL is called, so it can be made on a worker.
 #pragma once
 
-#include "renderer/core/environment.h"
+#include "renderer/ibl/bake.h"
 
 #include <cstdint>
 #include <vector>
@@ -13,9 +13,12 @@ struct PanoramaLevels {
     struct Level {
         int width = 0;
         int height = 0;
-        std::vector<std::uint16_t> rgba;  ///< half floats, radiance · 2^−exponent
+        /// Half floats · 2^−exponent. Red, green and blue are the radiance without the extracted lights,
+        /// alpha the mean channel of what these add: × a light's colour it completes the picture.
+        std::vector<std::uint16_t> rgba;
     };
     std::vector<Level> levels;
+    std::vector<ExtractedLight> lights;  ///< those kept apart in alpha
     int exponent = 0;  ///< chosen so that the largest value fits a half float with its full precision
 };
 

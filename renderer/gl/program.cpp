@@ -113,7 +113,8 @@ void bind_interface(GLuint program) {
         {"albedo_map", kFirstMapUnit + 0},   {"roughness_map", kFirstMapUnit + 1},
         {"metallic_map", kFirstMapUnit + 2}, {"ao_map", kFirstMapUnit + 3},
         {"normal_map", kFirstMapUnit + 4},   {"emission_map", kFirstMapUnit + 5},
-        {"picture", kPictureUnit},
+        {"lobe_table", kLobesUnit},          {"picture", kPictureUnit},
+        {"reference_points", kReferenceUnit},
     };
     GLint previous = 0;
     glGetIntegerv(GL_CURRENT_PROGRAM, &previous);

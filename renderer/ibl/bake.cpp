@@ -3,6 +3,7 @@
 #include "renderer/ibl/kernel.h"
 #include "renderer/ibl/level_plan.h"
 #include "renderer/ibl/lights.h"
+#include "renderer/ibl/near_field.h"
 #include "renderer/ibl/sampling.h"
 #include "renderer/ibl/sh_transform.h"
 
@@ -17,18 +18,19 @@ namespace {
 constexpr int kLevelCount = 16;
 constexpr float kStandardSharpest = 0.0999f;  ///< smoother levels need no more than the standard band
 constexpr int kStandardBand = 600;
-constexpr double kStrongLight = 2e4;  ///< of the mean: a light that reaches beyond the standard band …
-constexpr float kStrongSharpest = 0.1499f;     ///< … up to this roughness
-constexpr float kTransformSharpest = 0.0599f;  ///< the transform's limit
+constexpr double kStrongLight = 2e4;           ///< of the mean: a light that reaches beyond the standard band
+constexpr float kTransformSharpest = 0.0749f;  ///< sharper levels are transformed only far from their middle
 constexpr int kSharpBand = 1000;
 constexpr double kTruncation = 7e-4;  ///< relative rms of what a level leaves out
-constexpr int kSharpSamples = 1024;
+
+constexpr int kMostFirstRows = 512;  ///< that a first light looks at
 
 /// How much of it all is computed.
 struct Plan {
     int band = kStandardBand;
     int largest_face = 256;
     bool irradiance = true;
+    std::optional<KernelSplit> split;  ///< levels the transform cannot do whole get what is far, or nothing
 };
 
 /// Smooth levels need fewer texels: bilinear reconstruction then errs less than the levels themselves.
@@ -72,21 +74,26 @@ private:
 /// What a level costs, in arbitrary units.
 double level_cost(float roughness) { return roughness < 0.25f ? 3.0 : 1.0; }
 
-/// The kernels of all levels, then that of the irradiance (empty where the transform is not used).
-std::vector<std::vector<double>> make_kernels(const std::vector<float>& roughness, int band,
+/// The kernels of all levels, then that of the irradiance; empty where there is nothing to transform.
+std::vector<std::vector<double>> make_kernels(const std::vector<float>& roughness, const Plan& plan,
                                               const BakeControl& control) {
     std::vector<std::vector<double>> kernels(roughness.size() + 1);
     control.parallel_for(int(kernels.size()), [&](int i) {
         // At roughness 1 D is constant and the kernel is NoL: that level is E/π.
-        const double r = i < int(roughness.size()) ? roughness[i] : 1.0;
-        const bool is_repeated = i > 0 && i < int(roughness.size()) && roughness[i] == roughness[i - 1];
-        if (is_transformed(float(r)) && !is_repeated && !control.stop.stop_requested())
-            kernels[i] = ggx_zonal(r * r, kernel_band(r * r, band));
+        const bool is_irradiance = i == int(roughness.size());
+        const double r = is_irradiance ? 1.0 : roughness[i], alpha = r * r;
+        const bool is_repeated = i > 0 && !is_irradiance && roughness[i] == roughness[i - 1];
+        if (is_repeated || control.stop.stop_requested() || (is_irradiance && !plan.irradiance)) return;
+        if (is_transformed(float(r)))
+            kernels[i] = ggx_zonal(alpha, kernel_band(alpha, plan.band));
+        else if (plan.split && r > 0.0)
+            kernels[i] = ggx_far_zonal(alpha, *plan.split, plan.band);
     });
     return kernels;
 }
 
-/// Levels and irradiance of what the extraction left, by the transform; levels it cannot do are left empty.
+/// Levels and irradiance of what the extraction left, by the transform; levels it cannot do are left empty,
+/// or hold their far part.
 std::optional<BakedEnvironment> transform_levels(const RadianceView& view,
                                                  const RadianceStatistics& statistics,
                                                  const BakeSettings& settings, const Plan& plan,
@@ -94,16 +101,23 @@ std::optional<BakedEnvironment> transform_levels(const RadianceView& view,
     const BakeControl& control = progress.control;
     Stopwatch stopwatch;
     BakedEnvironment baked;
-    std::vector<std::vector<double>> kernels = make_kernels(settings.roughness, plan.band, control);
-    const LegendreTables tables(plan.band, control.parallel_for);
+    std::vector<std::vector<double>> kernels = make_kernels(settings.roughness, plan, control);
+    std::size_t degrees = 0;
+    for (const std::vector<double>& kernel : kernels) degrees = std::max(degrees, kernel.size());
+    if (degrees == 0) {  // copies only
+        for (const float roughness : settings.roughness) baked.levels.push_back({roughness, {}});
+        return baked;
+    }
+    const LegendreTables tables(int(degrees) - 1, control.parallel_for);
     if (control.stop.stop_requested()) return std::nullopt;
     const ShCoefficients coefficients = analyse(view, tables, control);
     if (control.stop.stop_requested()) return std::nullopt;
     progress.add(3.0);
     const std::vector<double> power = power_spectrum(coefficients);
-    const Synthesis::Range range = {statistics.lowest, statistics.highest};
     Synthesis synthesis(coefficients, control);
     const auto make_level = [&](std::vector<double>& kernel, int size) {
+        const float share = float(kernel.front());  // of the whole kernel: 1 but for far parts
+        const Synthesis::Range range = {share * statistics.lowest, share * statistics.highest};
         truncate(kernel, power, kTruncation * statistics.error_scale);
         return synthesis.to_cube(kernel, size, range);
     };
@@ -129,52 +143,37 @@ std::optional<BakedEnvironment> transform_levels(const RadianceView& view,
     return baked;
 }
 
-/// What sharp levels are made from.
-struct SharpSource {
+/// What levels are finished with.
+struct Sources {
     const Environment& environment;
-    const RadianceStatistics& statistics;
     const LightExtraction& extraction;
+    const std::optional<NearField>& near;
+    const std::optional<KernelSplit>& split;
 };
 
-/// Levels too sharp for the standard transform, put before the others. A small bright light has energy in
-/// every degree, and a cut-off spectrum would turn it into rings: it is taken out, and put back exactly.
-/// Sharper still, the environment is sampled; at roughness 0 it is copied. False when stopped.
-bool add_sharp_levels(const SharpSource& source, const BakeSettings& settings, Progress& progress,
-                      BakedEnvironment& baked) {
-    const BakeControl& control = progress.control;
-    std::vector<PrefilteredLevel> levels(settings.roughness.size());
-    for (std::size_t i = 0; i < levels.size(); ++i) levels[i].roughness = settings.roughness[i];
-    if (is_transformed(settings.roughness.back())) {
-        const bool is_standard = settings.roughness.front() >= kStandardSharpest;
-        const Plan plan = {.band = is_standard ? kStandardBand : kSharpBand, .irradiance = false};
-        auto sharp =
-            transform_levels(source.extraction.residual, source.statistics, settings, plan, progress);
-        if (!sharp) return false;
-        baked.timings.transform_ms += sharp->timings.transform_ms;
-        baked.timings.levels_ms += sharp->timings.levels_ms;
-        levels = std::move(sharp->levels);
-    }
+/// What the transform leaves to do: the near part of sharp levels, copies at roughness 0, lights that were
+/// only taken out to be put back exactly. False when stopped.
+bool finish_levels(const Sources& sources, const BakeSettings& settings, const BakeControl& control,
+                   BakedEnvironment& baked) {
+    const bool put_back = !settings.extract_lights;
     Stopwatch stopwatch;
-    std::optional<CubePyramid> pyramid;
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-        PrefilteredLevel& level = levels[i];
-        if (control.stop.stop_requested()) return false;
-        const int size = level_size(settings, i, settings.max_face_size);
-        if (level.cube.size > 0) {
-            if (!settings.extract_lights) fold_back(source.extraction, level.roughness, level.cube, control);
-            baked.timings.lights_ms += stopwatch.lap_ms();
-            continue;
-        }
-        if (level.roughness <= 0.0f) {
-            level.cube = resample_environment(source.environment, size, control.parallel_for);
-        } else {
-            if (!pyramid) pyramid.emplace(source.environment, 256, control.parallel_for);
-            level.cube = prefilter_by_sampling(*pyramid, level.roughness, kSharpSamples, size, control);
-        }
+    for (std::size_t i = 0; i < baked.levels.size(); ++i) {
+        PrefilteredLevel& level = baked.levels[i];
+        const bool is_split = !is_transformed(level.roughness);
+        if (level.roughness <= 0.0f)
+            level.cube = resample_environment(
+                sources.environment, level_size(settings, i, settings.max_face_size), control.parallel_for);
+        else if (is_split)
+            sources.near->add(double(level.roughness) * level.roughness, *sources.split, level.cube, control);
         baked.timings.levels_ms += stopwatch.lap_ms();
+        if (put_back)
+            fold_back(sources.extraction, level.roughness, is_split ? sources.split : std::nullopt,
+                      level.cube, control);
+        baked.timings.lights_ms += stopwatch.lap_ms();
+        if (control.stop.stop_requested()) return false;
     }
-    baked.levels.insert(baked.levels.begin(), std::make_move_iterator(levels.begin()),
-                        std::make_move_iterator(levels.end()));
+    if (put_back) fold_back(sources.extraction, 1.0f, std::nullopt, baked.irradiance, control);
+    baked.timings.lights_ms += stopwatch.lap_ms();
     return !control.stop.stop_requested();
 }
 
@@ -200,31 +199,30 @@ std::optional<BakedEnvironment> bake_environment(const Environment& environment,
     Progress progress{control, 4.0};
     for (const float roughness : settings.roughness) progress.total += level_cost(roughness);
     Stopwatch stopwatch;
-    const RadianceStatistics statistics = radiance_statistics(view_of(environment), control.parallel_for);
+    RadianceStatistics statistics = radiance_statistics(view_of(environment), control.parallel_for);
     const glm::vec3 peak = statistics.highest;
     const bool is_strong = std::max({peak.x, peak.y, peak.z}) > kStrongLight * statistics.mean;
-    const auto first_smooth = std::lower_bound(settings.roughness.begin(), settings.roughness.end(),
-                                               is_strong ? kStrongSharpest : kStandardSharpest);
-    BakeSettings sharp = settings, smooth = settings;
-    sharp.roughness.assign(settings.roughness.begin(), first_smooth);
-    smooth.roughness.assign(first_smooth, settings.roughness.end());
-    if (!settings.face_sizes.empty()) {
-        const auto split = settings.face_sizes.begin() + (first_smooth - settings.roughness.begin());
-        sharp.face_sizes.assign(settings.face_sizes.begin(), split);
-        smooth.face_sizes.assign(split, settings.face_sizes.end());
-    }
+    const float sharpest = settings.roughness.empty() ? 1.0f : settings.roughness.front();
+    // A small bright light has energy in every degree, and a cut-off spectrum would turn it into rings.
     LightExtraction extraction;
-    if (settings.extract_lights || !sharp.roughness.empty())
+    extraction.residual = view_of(environment);
+    if (settings.extract_lights || is_strong || sharpest < kStandardSharpest)
         extraction = extract_lights(environment, statistics, {});
+    if (!extraction.lights.empty())
+        statistics = radiance_statistics(extraction.residual, control.parallel_for);
     const double extract_ms = stopwatch.lap_ms();
 
-    const RadianceView view = settings.extract_lights ? extraction.residual : view_of(environment);
-    std::optional<BakedEnvironment> baked{BakedEnvironment{}};
-    if (settings.irradiance || !smooth.roughness.empty())
-        baked = transform_levels(view, statistics, smooth, {.irradiance = settings.irradiance}, progress);
-    if (!baked) return std::nullopt;
-    if (!sharp.roughness.empty() &&
-        !add_sharp_levels({environment, statistics, extraction}, sharp, progress, *baked))
+    Plan plan = {.band = sharpest < kStandardSharpest ? kSharpBand : kStandardBand,
+                 .irradiance = settings.irradiance,
+                 .split = {}};
+    std::optional<NearField> near;
+    if (std::ranges::any_of(settings.roughness, [](float r) { return r > 0.0f && !is_transformed(r); })) {
+        near.emplace(settings.extract_lights ? extraction.residual : view_of(environment), control);
+        plan.split = near->split();
+    }
+    std::optional<BakedEnvironment> baked =
+        transform_levels(extraction.residual, statistics, settings, plan, progress);
+    if (!baked || !finish_levels({environment, extraction, near, plan.split}, settings, control, *baked))
         return std::nullopt;
     if (settings.extract_lights) baked->lights = extraction.lights;
     baked->timings.lights_ms += extract_ms;
@@ -234,7 +232,12 @@ std::optional<BakedEnvironment> bake_environment(const Environment& environment,
 
 std::optional<BakedEnvironment> bake_first_light(const Environment& environment, const BakeSettings& settings,
                                                  const BakeControl& control) {
-    const Environment small = reduce(environment, 128, 64, control.parallel_for);
+    RadianceView some = view_of(environment);  // reading all of a large picture would take longer than this
+    const int step = std::max(1, environment.height / kMostFirstRows);
+    for (int y = 0; y < environment.height / step; ++y)
+        some.rows[y] = some.rows[std::size_t(y) * step + step / 2];
+    some.height = environment.height / step;
+    const Environment small = reduce(some, 128, 64, control.parallel_for);
     BakeSettings smooth = settings;  // sharper levels hold the sharpest that few degrees can
     constexpr float sharpest = 0.25f;
     for (float& roughness : smooth.roughness) roughness = std::max(roughness, sharpest);

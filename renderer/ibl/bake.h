@@ -67,7 +67,7 @@ struct BakedEnvironment {
 std::vector<float> standard_roughness_levels();
 
 /// Part of the cache key: raised whenever bake_environment's output changes.
-inline constexpr int kBakerVersion = 5;
+inline constexpr int kBakerVersion = 7;
 
 struct BakeSettings {
     std::vector<float> roughness =
@@ -93,8 +93,8 @@ std::optional<BakedEnvironment> bake_environment(const Environment& environment,
                                                  const BakeControl& control);
 
 /// The same levels and irradiance in a few hundredths of the time, for a first picture: the environment
-/// reduced to 128 × 64 texels, degrees to 32, faces of 32². Good where the roughness is above ½, blurred
-/// where it is below. No lights are taken out.
+/// reduced to 128 × 64 texels (of a large picture only some rows are read), degrees to 32, faces of 32². Good
+/// where the roughness is above ½, blurred where it is below. No lights are taken out.
 std::optional<BakedEnvironment> bake_first_light(const Environment& environment, const BakeSettings& settings,
                                                  const BakeControl& control);
 

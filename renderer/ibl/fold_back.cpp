@@ -1,4 +1,5 @@
 // Lights put back into levels they were taken out of.
+#include "renderer/ibl/fold_simd.h"
 #include "renderer/ibl/kernel.h"
 #include "renderer/ibl/lights.h"
 
@@ -61,21 +62,7 @@ LightPoints join_texels(const TexelGrid& grid, const std::vector<LightTexel>& te
     return points;
 }
 
-/// Σ flux · K over the points in front of N. K = (1 − 2s) α²/(s + α²(1 − s))² with s = |N − L|²/4, which is
-/// exact for small angles in single precision.
-glm::vec3 sum_points(const LightPoints& points, glm::vec3 N, float alpha2) {
-    float red = 0.0f, green = 0.0f, blue = 0.0f;
-    for (std::size_t i = 0; i < points.x.size(); ++i) {
-        const float dx = points.x[i] - N.x, dy = points.y[i] - N.y, dz = points.z[i] - N.z;
-        const float s = 0.25f * (dx * dx + dy * dy + dz * dz);
-        const float d = s + alpha2 * (1.0f - s);
-        const float kernel = std::max(0.0f, 1.0f - 2.0f * s) * alpha2 / (d * d);
-        red += points.red[i] * kernel;
-        green += points.green[i] * kernel;
-        blue += points.blue[i] * kernel;
-    }
-    return {red, green, blue};
-}
+// K = (1 − 2s) α²/(s + α²(1 − s))² with s = |N − L|²/4, which is exact for small angles in single precision.
 
 /// The same light in points, ever fewer. The kernel is a power law, K ~ θ⁻⁴: a cluster of mean-square radius
 /// σ² taken as a point at its centre errs by ¼σ²(K'' + K'/θ) = 4 (σ/θ)² K. A block of side b has σ² = b²/6.
@@ -90,22 +77,35 @@ public:
         const int parts = std::clamp(int(std::ceil(2.0 * size / alpha)), 4, 32);
         // A wide lobe's kink at its horizon shows; a narrow one is dark there.
         horizon_ = alpha > 0.1 ? float(2.0 * extent) : 0.0f;
-        add(0.0, split_texels(grid, texels, parts));
-        add(extent + 8.0 * size, split_texels(grid, texels, 1));
+        add_detail(0.0, split_texels(grid, texels, parts));
+        add_detail(extent + 8.0 * size, split_texels(grid, texels, 1));
         for (int side = 1; side <= 8; side *= 2)
-            add(extent + far * side * size, join_texels(grid, texels, side));
+            add_detail(extent + far * side * size, join_texels(grid, texels, side));
         LightPoints whole;
         whole.add(light.direction, light.irradiance);
-        add(100.0 * light.angular_radius_rad / std::numbers::sqrt2, std::move(whole));  // σ² = R²/2
+        add_detail(100.0 * light.angular_radius_rad / std::numbers::sqrt2,
+                   std::move(whole));  // σ² = R²/2
     }
 
-    glm::vec3 sum(glm::vec3 N, float alpha2) const {
-        const float cosine = glm::dot(N, direction_);
+    /// For all directions what the nearest of them needs.
+    void add(const simd::FoldLobe& lobe, simd::FoldDirections& to) const {
+        float largest = -1.0f, flattest = 1.0f;
+        for (int i = 0; i < simd::kFoldDirections; ++i) {
+            const float cosine = to.x[i] * direction_.x + to.y[i] * direction_.y + to.z[i] * direction_.z;
+            largest = std::max(largest, cosine);
+            flattest = std::min(flattest, std::abs(cosine));
+        }
         const Detail* detail = &details_.front();
-        if (std::abs(cosine) > horizon_)
+        if (flattest > horizon_)
             for (const Detail& coarser : details_)
-                if (cosine < coarser.largest_cosine) detail = &coarser;
-        return sum_points(detail->points, N, alpha2);
+                if (largest < coarser.largest_cosine) detail = &coarser;
+        const LightPoints& p = detail->points;
+        simd::add_points({int(p.x.size()),
+                          p.x.data(),
+                          p.y.data(),
+                          p.z.data(),
+                          {p.red.data(), p.green.data(), p.blue.data()}},
+                         lobe, to);
     }
 
 private:
@@ -113,7 +113,7 @@ private:
         float largest_cosine;  ///< good enough below it
         LightPoints points;
     };
-    void add(double least_angle, LightPoints points) {
+    void add_detail(double least_angle, LightPoints points) {
         details_.push_back({least_angle < kPi ? float(std::cos(least_angle)) : -2.0f, std::move(points)});
     }
 
@@ -124,8 +124,8 @@ private:
 
 }  // namespace
 
-void fold_back(const LightExtraction& extraction, float roughness, CubeMap& cube,
-               const BakeControl& control) {
+void fold_back(const LightExtraction& extraction, float roughness, const std::optional<KernelSplit>& split,
+               CubeMap& cube, const BakeControl& control) {
     if (extraction.lights.empty() || roughness <= 0.0f) return;
     const double alpha = double(roughness) * roughness;
     const TexelGrid grid = {extraction.residual.width, extraction.residual.height};
@@ -133,14 +133,27 @@ void fold_back(const LightExtraction& extraction, float roughness, CubeMap& cube
     for (std::size_t i = 0; i < extraction.lights.size(); ++i)
         lights.emplace_back(grid, extraction.texels[i], extraction.lights[i], alpha);
     const float scale = float(1.0 / ggx_kernel_integral(alpha));
-    const float alpha2 = float(alpha * alpha);
+    simd::FoldLobe lobe{.alpha2 = float(alpha * alpha)};
+    if (split) {
+        lobe.inner_square = float(split->inner_square);
+        lobe.window_scale = float(1.0 / (split->outer_square - split->inner_square));
+    }
     control.parallel_for(6 * cube.size, [&](int row) {
         if (control.stop.stop_requested()) return;
-        for (int x = 0; x < cube.size; ++x) {
-            const glm::vec3 N = cube_texel_direction(cube.size, row / cube.size, x, row % cube.size);
-            glm::vec3 sum(0.0f);
-            for (const FoldedLight& light : lights) sum += light.sum(N, alpha2);
-            cube.texels[std::size_t(row) * cube.size + x] += scale * sum;
+        for (int first = 0; first < cube.size; first += simd::kFoldDirections) {
+            simd::FoldDirections to{};
+            for (int i = 0; i < simd::kFoldDirections; ++i) {
+                const int x = std::min(first + i, cube.size - 1);
+                const glm::vec3 N = cube_texel_direction(cube.size, row / cube.size, x, row % cube.size);
+                to.x[i] = N.x;
+                to.y[i] = N.y;
+                to.z[i] = N.z;
+            }
+            for (const FoldedLight& light : lights) light.add(lobe, to);
+            const int count = std::min(simd::kFoldDirections, cube.size - first);
+            for (int i = 0; i < count; ++i)
+                cube.texels[std::size_t(row) * cube.size + first + i] +=
+                    scale * glm::vec3(to.sums[0][i], to.sums[1][i], to.sums[2][i]);
         }
     });
 }

@@ -17,4 +17,16 @@ std::vector<double> ggx_zonal(double alpha, int band);
 /// ∫ K dω, the kernel's normalisation.
 double ggx_kernel_integral(double alpha);
 
+/// A kernel in two parts: K·w near its middle and K·(1 − w), which is smooth however sharp the lobe is. w
+/// falls from 1 to 0 between two distances, three times continuously differentiable. Distances are chords,
+/// |N − L|², which grow with the angle as 4 sin²(θ/2).
+struct KernelSplit {
+    double inner_square = 0.0;
+    double outer_square = 0.0;
+    double window(double chord_square) const;
+};
+
+/// ∫ K (1 − w) P_l / ∫ K, from l = 0 up to the degree where less than 1e-7 is left, or to the band.
+std::vector<double> ggx_far_zonal(double alpha, const KernelSplit& split, int band);
+
 }  // namespace patina

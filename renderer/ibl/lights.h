@@ -1,8 +1,10 @@
 // Compact bright sources: found, taken out of a panorama, and put back into prefiltered levels exactly.
 #pragma once
 
+#include "renderer/ibl/kernel.h"
 #include "renderer/ibl/panorama.h"
 
+#include <optional>
 #include <vector>
 
 namespace patina {
@@ -35,7 +37,8 @@ LightExtraction extract_lights(const Environment& environment, const RadianceSta
                                const LightSearch& search);
 
 /// Adds to a level what it would hold of the lights, had they stayed: the kernel integrated over every texel
-/// taken.
-void fold_back(const LightExtraction& extraction, float roughness, CubeMap& cube, const BakeControl& control);
+/// taken; with a split, only its far part.
+void fold_back(const LightExtraction& extraction, float roughness, const std::optional<KernelSplit>& split,
+               CubeMap& cube, const BakeControl& control);
 
 }  // namespace patina

@@ -1,5 +1,7 @@
 #include "renderer/ibl/panorama.h"
 
+#include "renderer/ibl/panorama_simd.h"
+
 #include <glm/common.hpp>
 #include <glm/ext/vector_double3.hpp>
 
@@ -14,31 +16,42 @@ namespace {
 struct Strip {
     glm::vec3 lowest, highest;
     glm::dvec3 sum{0.0};
-    double square = 0.0, area = 0.0;
+    double area = 0.0;
     std::vector<glm::dvec3> patch_sum;  ///< of this strip's rows, by column of patches
 };
+
+/// Four texels at a time, each float in a place of its own: the compiler can then use vectors.
+glm::vec3 sum_of(const glm::vec3* texels, int count) {
+    const float* from = &texels->x;
+    float places[simd::kTogether] = {};
+    int i = 0;
+    for (; i + simd::kTogether <= 3 * count; i += simd::kTogether)
+        for (int k = 0; k < simd::kTogether; ++k) places[k] += from[i + k];
+    for (int k = 0; i < 3 * count; ++i, ++k) places[k] += from[i];
+    glm::vec3 sum(0.0f);
+    for (int k = 0; k < simd::kTogether; ++k) sum[k % 3] += places[k];
+    return sum;
+}
 
 Strip measure_strip(const RadianceView& e, int first_row, int last_row, int patches) {
     Strip strip{e.rows[first_row][0], e.rows[first_row][0]};
     strip.patch_sum.assign(std::size_t(patches), glm::dvec3(0.0));
+    simd::TexelRange range;
+    for (int k = 0; k < simd::kTogether; ++k) range.lowest[k] = range.highest[k] = strip.lowest[k % 3];
     for (int y = first_row; y < last_row; ++y) {
         const double area = std::sin((y + 0.5) * std::numbers::pi / e.height);
-        const glm::vec3* texel = e.rows[y];
         for (int patch = 0; patch < patches; ++patch) {
+            const int begin = int(std::int64_t(e.width) * patch / patches);
             const int end = int(std::int64_t(e.width) * (patch + 1) / patches);
-            glm::vec3 sum(0.0f);
-            double square = 0.0;
-            for (int x = int(std::int64_t(e.width) * patch / patches); x < end; ++x, ++texel) {
-                strip.lowest = glm::min(strip.lowest, *texel);
-                strip.highest = glm::max(strip.highest, *texel);
-                sum += *texel;
-                square +=
-                    double(texel->x) * texel->x + double(texel->y) * texel->y + double(texel->z) * texel->z;
-            }
-            strip.patch_sum[patch] += area * glm::dvec3(sum);
-            strip.square += area * square / 3.0;
+            glm::vec3 measured;
+            simd::measure_texels(&e.rows[y][begin].x, end - begin, range, &measured.x);
+            strip.patch_sum[patch] += area * glm::dvec3(measured);
         }
         strip.area += area * e.width;
+    }
+    for (int k = 0; k < simd::kTogether; ++k) {
+        strip.lowest[k % 3] = std::min(strip.lowest[k % 3], range.lowest[k]);
+        strip.highest[k % 3] = std::max(strip.highest[k % 3], range.highest[k]);
     }
     for (const glm::dvec3& sum : strip.patch_sum) strip.sum += sum;
     return strip;
@@ -65,7 +78,7 @@ RadianceView view_of(const Environment& e) {
     return view;
 }
 
-Environment reduce(const Environment& e, int width, int height, const ParallelFor& parallel_for) {
+Environment reduce(const RadianceView& e, int width, int height, const ParallelFor& parallel_for) {
     Environment small;
     small.width = std::min(width, e.width);
     small.height = std::min(height, e.height);
@@ -76,13 +89,11 @@ Environment reduce(const Environment& e, int width, int height, const ParallelFo
         float area = 0.0f;
         for (int y = begin(row, small.height, e.height); y < begin(row + 1, small.height, e.height); ++y) {
             const float sine = float(std::sin((y + 0.5) * std::numbers::pi / e.height));
-            const glm::vec3* texel = &e.radiance[std::size_t(y) * e.width];
+            const glm::vec3* texel = e.rows[y];
             for (int column = 0; column < small.width; ++column) {
-                const glm::vec3* end =
-                    &e.radiance[std::size_t(y) * e.width] + begin(column + 1, small.width, e.width);
-                glm::vec3 sum(0.0f);
-                for (; texel != end; ++texel) sum += *texel;
-                sums[column] += sine * sum;
+                const glm::vec3* end = e.rows[y] + begin(column + 1, small.width, e.width);
+                sums[column] += sine * sum_of(texel, int(end - texel));
+                texel = end;
             }
             area += sine;
         }
@@ -109,12 +120,10 @@ RadianceStatistics radiance_statistics(const RadianceView& e, const ParallelFor&
         s.lowest = glm::min(s.lowest, strip.lowest);
         s.highest = glm::max(s.highest, strip.highest);
         s.mean_color += strip.sum;
-        s.mean_square += strip.square;
         area += strip.area;
     }
     s.mean_color /= area;
     s.mean = (s.mean_color.x + s.mean_color.y + s.mean_color.z) / 3.0;
-    s.mean_square /= area;
     if (s.mean <= 0.0) return s;
     double inverse_squares = 0.0;
     for (const Strip& strip : all)

@@ -27,13 +27,12 @@ struct TexelGrid {
 RadianceView view_of(const Environment& environment);
 
 /// Averages to at most width × height texels, each texel of the source counted with its solid angle.
-Environment reduce(const Environment& environment, int width, int height, const ParallelFor& parallel_for);
+Environment reduce(const RadianceView& view, int width, int height, const ParallelFor& parallel_for);
 
 struct RadianceStatistics {
     glm::vec3 lowest{0.0f}, highest{0.0f};  ///< channel by channel
     glm::dvec3 mean_color{0.0};             ///< over the sphere
     double mean = 0.0;                      ///< likewise, over the channels too
-    double mean_square = 0.0;               ///< likewise
     /// What an error, the same everywhere, is divided by to give a relative error: 1/√(mean of 1/L²), L
     /// averaged over patches and taken no darker than a thousandth of the mean. A dark studio needs its
     /// lamps' tails more exactly.

@@ -131,24 +131,43 @@ glm::dvec3 PrefilterReference::radiance(glm::dvec3 N, double roughness) const {
     return sum / reference_kernel_integral(alpha);
 }
 
-PrefilterError prefilter_error(const CubeMap& cube, double roughness, const Environment& environment,
+PrefilterTruth prefilter_truth(const CubeMap& like, double roughness, const Environment& environment,
                                const PrefilterProbe& probe) {
     const PrefilterReference reference(environment);
-    const double floor = 1e-3 * mean_of(environment);
-    const std::vector<int> texels = probe_texels(cube, probe.texels);
-    std::vector<double> errors(3 * texels.size());
-    probe.parallel_for(int(texels.size()), [&](int i) {
-        const int n = cube.size, texel = texels[i];
+    PrefilterTruth truth{probe_texels(like, probe.texels), like.size, {}, 1e-3 * mean_of(environment)};
+    truth.radiance.resize(truth.texels.size());
+    probe.parallel_for(int(truth.texels.size()), [&](int i) {
+        const int n = like.size, texel = truth.texels[i];
         const glm::dvec3 N =
             glm::normalize(glm::dvec3(cube_texel_direction(n, texel / (n * n), texel % n, texel / n % n)));
-        const glm::dvec3 truth = reference.radiance(N, roughness);
-        for (int c = 0; c < 3; ++c)
-            errors[3 * i + c] = std::abs(cube.texels[texel][c] - truth[c]) / std::max(truth[c], floor);
+        truth.radiance[i] = reference.radiance(N, roughness);
     });
-    std::sort(errors.begin(), errors.end());
+    return truth;
+}
+
+PrefilterError prefilter_error(const std::vector<glm::vec3>& values, const PrefilterTruth& truth) {
+    std::vector<double> errors;
     double square = 0.0;
-    for (const double error : errors) square += error * error;
+    for (std::size_t i = 0; i < truth.radiance.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double right = truth.radiance[i][c];
+            errors.push_back(std::abs(values[i][c] - right) / std::max(right, truth.floor));
+            square += errors.back() * errors.back();
+        }
+    std::sort(errors.begin(), errors.end());
     return {std::sqrt(square / double(errors.size())), errors[errors.size() * 95 / 100], errors.back()};
+}
+
+PrefilterError prefilter_error(const CubeMap& cube, const PrefilterTruth& truth) {
+    std::vector<glm::vec3> values;
+    values.reserve(truth.texels.size());
+    for (const int texel : truth.texels) values.push_back(cube.texels[texel]);
+    return prefilter_error(values, truth);
+}
+
+PrefilterError prefilter_error(const CubeMap& cube, double roughness, const Environment& environment,
+                               const PrefilterProbe& probe) {
+    return prefilter_error(cube, prefilter_truth(cube, roughness, environment, probe));
 }
 
 }  // namespace patina

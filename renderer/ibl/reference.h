@@ -40,4 +40,18 @@ struct PrefilterProbe {
 PrefilterError prefilter_error(const CubeMap& cube, double roughness, const Environment& environment,
                                const PrefilterProbe& probe);
 
+/// What some texels of a level should hold, to judge several methods by.
+struct PrefilterTruth {
+    std::vector<int> texels;  ///< of a cube of that face size
+    int face_size = 0;
+    std::vector<glm::dvec3> radiance;
+    double floor = 0.0;  ///< errors of what is darker are taken relative to it
+};
+/// like: a cube of the size wanted, whose brightest texel shows where to look.
+PrefilterTruth prefilter_truth(const CubeMap& like, double roughness, const Environment& environment,
+                               const PrefilterProbe& probe);
+/// values: one for each texel of the truth.
+PrefilterError prefilter_error(const std::vector<glm::vec3>& values, const PrefilterTruth& truth);
+PrefilterError prefilter_error(const CubeMap& cube, const PrefilterTruth& truth);
+
 }  // namespace patina

@@ -53,7 +53,7 @@ glm::vec3 mean_over_texel(const Environment& environment, int size, int row, int
 CubeMap resample_environment(const Environment& environment, int size, const ParallelFor& parallel_for) {
     // Half a cube texel or less is averaged beforehand, so that the cost does not grow with the panorama.
     const int factor = std::max(1, int(std::lround(environment.width / (8.0 * size))));
-    const Environment reduced = factor > 1 ? reduce(environment, environment.width / factor,
+    const Environment reduced = factor > 1 ? reduce(view_of(environment), environment.width / factor,
                                                     environment.height / factor, parallel_for)
                                            : Environment{};
     const Environment& source = factor > 1 ? reduced : environment;

@@ -157,25 +157,37 @@ glm::vec3 CubePyramid::sample(glm::vec3 direction, float lod) const {
     return fraction > 0.0f ? glm::mix(fine, bilinear(levels_[level + 1], direction), fraction) : fine;
 }
 
-CubeMap prefilter_by_sampling(const CubePyramid& source, float roughness, int samples, int face_size,
-                              const BakeControl& control) {
-    CubeMap cube{face_size, std::vector<glm::vec3>(std::size_t(6) * face_size * face_size)};
-    const double alpha = double(roughness) * roughness;
-    const std::vector<LobeSample> lobe = lobe_samples(alpha, samples, source.face_size());
-    control.parallel_for(6 * face_size, [&](int row) {
+std::vector<glm::vec3> sample_prefiltered(const CubePyramid& source, float roughness, int samples,
+                                          const std::vector<glm::vec3>& directions,
+                                          const BakeControl& control) {
+    std::vector<glm::vec3> result(directions.size(), glm::vec3(0.0f));
+    const std::vector<LobeSample> lobe =
+        lobe_samples(double(roughness) * roughness, samples, source.face_size());
+    constexpr int together = 16;
+    const int count = int(directions.size());
+    control.parallel_for((count + together - 1) / together, [&](int task) {
         if (control.stop.stop_requested()) return;
-        for (int x = 0; x < face_size; ++x) {
-            const glm::vec3 N = cube_texel_direction(face_size, row / face_size, x, row % face_size);
+        for (int i = task * together; i < std::min(count, (task + 1) * together); ++i) {
             glm::vec3 T, B;
-            make_frame(N, T, B);
+            make_frame(directions[i], T, B);
             glm::vec3 sum(0.0f);
             for (const LobeSample& s : lobe)
                 sum += s.weight *
-                       source.sample(T * s.direction.x + B * s.direction.y + N * s.direction.z, s.lod);
-            cube.texels[std::size_t(row) * face_size + x] = sum;
+                       source.sample(T * s.direction.x + B * s.direction.y + directions[i] * s.direction.z,
+                                     s.lod);
+            result[i] = sum;
         }
     });
-    return cube;
+    return result;
+}
+
+CubeMap prefilter_by_sampling(const CubePyramid& source, float roughness, int samples, int face_size,
+                              const BakeControl& control) {
+    std::vector<glm::vec3> directions;
+    for (int i = 0; i < 6 * face_size * face_size; ++i)
+        directions.push_back(cube_texel_direction(face_size, i / (face_size * face_size), i % face_size,
+                                                  i / face_size % face_size));
+    return {face_size, sample_prefiltered(source, roughness, samples, directions, control)};
 }
 
 }  // namespace patina

@@ -4,6 +4,8 @@
 
 #include "renderer/ibl/bake.h"
 
+#include <vector>
+
 namespace patina {
 
 /// The environment as a cube map with all its mipmaps, each face surrounded by one texel of its neighbours.
@@ -33,9 +35,13 @@ private:
 /// keeps its energy within 1 %.
 CubeMap resample_environment(const Environment& environment, int face_size, const ParallelFor& parallel_for);
 
-/// One level by filtered importance sampling of D(h) with that many samples (Křivánek & Colbert, GPU Gems 3):
-/// a sample reads the mip level whose texels are as large as the solid angle it stands for. roughness 0
-/// copies the environment.
+/// A level in some directions by filtered importance sampling of D(h) with that many samples (Křivánek &
+/// Colbert, GPU Gems 3): a sample reads the mip level whose texels are as large as the solid angle it stands
+/// for. roughness 0 copies the environment.
+std::vector<glm::vec3> sample_prefiltered(const CubePyramid& source, float roughness, int samples,
+                                          const std::vector<glm::vec3>& directions,
+                                          const BakeControl& control);
+/// The same for every texel of a cube.
 CubeMap prefilter_by_sampling(const CubePyramid& source, float roughness, int samples, int face_size,
                               const BakeControl& control);
 

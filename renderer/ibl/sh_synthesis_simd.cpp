@@ -192,10 +192,10 @@ HWY_INLINE void set_weights(float tx, float ty, Weights& w) {
     float x[kPoints];
     lagrange_weights(tx, x);
     lagrange_weights(ty, w.y);
+    const Texels d;
     for (int k = 0; k < kPoints / kTexels; ++k) {
-        HWY_ALIGN float spread[8];
-        for (int j = 0; j < 4 * kTexels; ++j) spread[j] = x[k * kTexels + j / 4];
-        w.x[k] = hn::Load(Texels(), spread);
+        w.x[k] = hn::Set(d, x[k * kTexels]);
+        if (kTexels == 2) w.x[k] = hn::ConcatUpperLower(d, hn::Set(d, x[k * kTexels + 1]), w.x[k]);
     }
 }
 HWY_INLINE void interpolate_one(const LagrangeSource& source, const float* corner, const Weights& w,

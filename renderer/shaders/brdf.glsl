@@ -1,5 +1,40 @@
-// The reflection model, one text for GLSL and C++ (renderer/brdf.h): GGX, height-correlated Smith, Schlick, and the
-// weights that turn prefiltered light into reflected light. alpha = roughness². No textures here.
+// The reflection model, one text for GLSL and C++ (renderer/brdf.h). alpha = roughness². No textures here.
+//
+// What is computed. With unit vectors N, V, L, H = (V + L)/|V + L| and F0 = mix(0.04, albedo, metallic):
+//
+//     f · NoL = F(VoH) · D(H) · Vis(NoL, NoV) · NoL  +  [FmsEms(NoV) + kD(NoV)] · NoL / π            (1)
+//
+//     F   = F0 + (1 − F0)(1 − VoH)⁵                                   Schlick 1994
+//     D   = α² / (π (sin²θ_h + α² cos²θ_h)²)                          GGX: Walter et al. 2007, written without cancellation
+//     Vis = G₂ / (4 NoL NoV),  G₂ the height-correlated Smith term    Heitz 2014
+//
+// The first term is one bounce between microfacets. Its albedo is linear in F0: with Fc = (1 − VoH)⁵,
+//     A = ∫ (1 − Fc) D Vis NoL dL,   B = ∫ Fc D Vis NoL dL,   E_F = F0·A + B,   Ess = A + B (F0 = 1)   (table of A, B)
+// and the light it reflects is E_F · P, P = ∫ F D Vis NoL L(l) dl / E_F, a weighted mean of the environment.
+//
+// The second is what bounces more than once, spread like a diffuse surface (Fdez-Agüera 2019). Of the energy, Ems = 1 − Ess
+// leaves the first bounce; each further one keeps Favg = F0 + (1 − F0)/21, Schlick's cosine-weighted mean, and lets
+// Ems go on: Σ Favg^k Ems^k gives FmsEms = E_F · Favg · Ems / (1 − Favg · Ems). What neither part reflects enters the body,
+//     kD = albedo (1 − metallic)(1 − E_F − FmsEms),
+// so that white reflects exactly 1. Under an environment with irradiance E(N):
+//
+//     Lo = E_F · P + (FmsEms + kD) · E/π                                                           (2)
+//
+// P is what the modes differ in. split-sum (Karis 2013): the level of that roughness along R. fitted: below. course: the
+// lecture's formulas, its own weights too. A light of direction L and irradiance E is (1) with the disc's width added to α².
+//
+// Fitted lobes. A prefiltered level of roughness ρ holds the environment under the lobe of N = V. The true lobe of (NoV, r)
+// lies elsewhere, towards N, and is narrower across the plane of incidence; far from its middle it has tails. So
+//     P ≈ Σ w_i · level(ρ_i) along R + κ_i α (N − R)  +  w_E · E(N)/π,      Σ w_i + w_E = 1           (3)
+// with one or two taps. κ_i, log₂(ρ_i/r), w_i and w_E are read from a table over (√NoV, r), fitted once for F0 = 1 and
+// once for 0.04 (renderer/lobes/): at grazing angles Schlick's Fc cuts the lobe's steep side away. Between the two they are
+// mixed by φ, the share of the reflected energy that Fc carries,
+//     φ(f0) = s(f0)/s(0.04),   s(f0) = (1 − f0) B / (f0 · Ess + (1 − f0) B).                        (4)
+// The weights sum to 1 and E_F is exact, so constant light is reflected exactly whatever the table holds.
+//
+// The normal's own spread. Where a pixel covers a range of normals (a normal map's mip level, whose unit vectors average to a
+// vector of length R; or curvature) the distribution of half vectors is wider: alpha'² = alpha² + spread (Toksvig 2005).
+// As a von Mises-Fisher lobe κ = (3R − R³)/(1 − R²), spread = 1/(2κ).
 
 const float kPi = 3.14159265358979f;
 
@@ -18,8 +53,7 @@ PATINA_FN vec3 fresnel_schlick_roughness(float cos_theta, vec3 F0, float roughne
 
 PATINA_FN vec3 base_reflectance(vec3 albedo, float metallic) { return mix(vec3(0.04f), albedo, metallic); }
 
-// D(h) = α² / (π (cos²θ (α² − 1) + 1)²) with sin²θ = |N × H|² given: 1 − cos² cancels catastrophically for small α, the
-// cross product does not.
+// sin²θ = |N × H|² is given: 1 − cos² cancels catastrophically for small α, the cross product does not.
 PATINA_FN float distribution_ggx(float sin2, float alpha2) {
     return alpha2 / (kPi * square(sin2 + alpha2 * (1.0f - sin2)));
 }
@@ -31,18 +65,14 @@ PATINA_FN float visibility_smith(float NoV, float NoL, float alpha2) {
     return 0.5f / max(v + l, 1e-8f);
 }
 
-// What multiplies the light: Lo = single · P + (multiple + diffuse) · E/π, P prefiltered radiance along R, E irradiance.
+// What multiplies the light in (2): Lo = single · P + (multiple + diffuse) · E/π.
 struct ReflectionWeights {
     vec3 single;
     vec3 multiple;
     vec3 diffuse;
 };
 
-// Split sum with the energy of multiple scattering put back (Fdez-Agüera 2019). ab = (A, B) of the table, so that
-// single scattering reflects E_F = F0·A + B of a constant environment and a perfect mirror's microfacets Ess = A + B.
-// The 1 − Ess that leaves the first bounce is scattered on, each time losing 1 − Favg; Favg = F0 + (1 − F0)/21 is
-// Schlick's cosine-weighted mean. The series Σ Favg^k Ems^k sums to Fms·Ems = E_F·Favg·Ems / (1 − Favg·Ems).
-// What neither reflects enters the body: kD = albedo (1 − metallic)(1 − E_F − FmsEms). White stays exactly white.
+// ab = (A, B).
 PATINA_FN ReflectionWeights split_sum_weights(vec3 albedo, float metallic, vec2 ab) {
     vec3 F0 = base_reflectance(albedo, metallic);
     vec3 E_F = F0 * ab.x + vec3(ab.y);
@@ -71,15 +101,52 @@ PATINA_FN ReflectionWeights course_weights(vec3 albedo, float metallic, float ro
     return w;
 }
 
-// A punctual light's specular f·NoL, made whole for multiple scattering by 1 + F0 (1/Ess − 1) (Turquin 2019).
-// NoL, NoV, VoH > 0; sin2 = |N × H|².
-PATINA_FN vec3 light_specular(vec3 F0, vec2 ab, float sin2, vec3 cosines, float alpha2) {
-    float NoV = cosines.x;
-    float NoL = cosines.y;
-    float Ess = max(ab.x + ab.y, 1e-3f);
-    vec3 compensation = vec3(1.0f) + F0 * (1.0f / Ess - 1.0f);
-    return fresnel_schlick(F0, cosines.z) * compensation *
-           (distribution_ggx(sin2, alpha2) * visibility_smith(NoV, NoL, alpha2) * NoL);
+// The first term of (1) for a small light. Its width widens the distribution (alpha2.x) and leaves the shadowing (alpha2.y)
+// as it is. cosines: NoV, NoL, VoH > 0; sin2 = |N × H|².
+PATINA_FN vec3 light_specular(vec3 F0, float sin2, vec3 cosines, vec2 alpha2) {
+    return fresnel_schlick(F0, cosines.z) * (distribution_ggx(sin2, alpha2.x) *
+                                             visibility_smith(cosines.x, cosines.y, alpha2.y) * cosines.y);
+}
+
+// φ of equation (4), 0…1 from F0 = 1 to 0.04 and darker. Both shares are fractions with the factor B, which is cancelled:
+// it vanishes at normal incidence.
+PATINA_FN float fresnel_share(float f0, vec2 ab) {
+    float Ess = ab.x + ab.y;
+    float of_dark = (0.04f * Ess + 0.96f * ab.y) / 0.96f;
+    float own = f0 * Ess + (1.0f - f0) * ab.y;
+    return clamp((1.0f - f0) * of_dark / max(own, 1e-6f), 0.0f, 1.0f);
+}
+
+// One direction stands for all channels of F0.
+PATINA_FN float luminance(vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+
+// Where the table of fitted lobes is read: √NoV, and roughness from the sharpest fitted one on, as fractions of its sides.
+const float kSharpestFitted = 0.1f;
+PATINA_FN vec2 lobe_coordinates(float NoV, float roughness) {
+    return vec2(sqrt(clamp(NoV, 0.0f, 1.0f)), clamp((roughness - kSharpestFitted) / (1.0f - kSharpestFitted), 0.0f, 1.0f));
+}
+
+// Direction of a tap (3), not normalised. Precondition: N·R > −1.
+PATINA_FN vec3 tap_direction(vec3 R, vec3 N, float kappa, float alpha) { return R + (N - R) * (kappa * alpha); }
+
+// Roughness with spread added to alpha². Untouched without spread.
+PATINA_FN float widened_roughness(float roughness, float spread) {
+    float alpha = roughness * roughness;
+    return spread > 0.0f ? sqrt(sqrt(min(alpha * alpha + spread, 1.0f))) : roughness;
+}
+
+// Coloured ambient occlusion: a bright surface lights its own crevices (Jimenez et al. 2016, fit to path-traced scenes).
+PATINA_FN vec3 multi_bounce_occlusion(float ao, vec3 albedo) {
+    vec3 a = 2.0404f * albedo - vec3(0.3324f);
+    vec3 b = vec3(0.6417f) - 4.7951f * albedo;
+    vec3 c = 2.7552f * albedo + vec3(0.6903f);
+    return max(vec3(ao), min(((a * ao + b) * ao + c) * ao, vec3(1.0f)));
+}
+
+// Occlusion of the specular lobe from that of the hemisphere (Lagarde & de Rousiers 2014).
+PATINA_FN float specular_occlusion(float NoV, float ao, float alpha) {
+    float exponent = exp2(-16.0f * alpha - 1.0f);
+    return clamp(pow(NoV + ao, exponent) - 1.0f + ao, 0.0f, 1.0f);
 }
 
 // Lobes sharper than the sharpest prefiltered level. With a = α/α₁ < 1 the projected lobe splits into
@@ -92,6 +159,14 @@ PATINA_FN float core_tangent2(float q, float alpha2, float alpha1_2) {
     float s = alpha2 + alpha1_2;
     float p = q * alpha2 * alpha1_2;
     return 2.0f * p / (s + sqrt(s * s + 4.0f * p));
+}
+
+// The wider lobe of a fitted one's split: below this multiple of the sharpest level's roughness, where no stored level is
+// as narrow as the true lobe across the plane of incidence, the tails are those of a lobe as far above it. The fit is good
+// there, the core holds most of the light, and the two meet where sampling ends.
+const float kCoreReach = 1.3f;
+PATINA_FN float tail_roughness(float roughness, float sharpest) {
+    return min(max(2.0f * kCoreReach * sharpest - roughness, roughness), 1.0f);
 }
 
 // Density per solid angle of the reflected direction (N = V, so dω_l = 4 VoH dω_h and D·NoH/(4 VoH) = D/4) of the core,

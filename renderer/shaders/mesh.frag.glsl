@@ -2,6 +2,7 @@
 #include "blocks.h"
 #include "brdf.glsl"
 #include "light.glsl"
+#include "lobes.glsl"
 #include "surface.glsl"
 #ifdef HAS_DEBUG
 #include "tonemap.glsl"
@@ -16,15 +17,25 @@ struct Reflected {
     vec3 specular;
 };
 
-// Sources taken out of the environment's levels, as discs: alpha² widened by the square of half their angular radius. A
-// lobe sharper than the sharpest level sees them in the panorama too, so only its tails (share a²) count here.
-void add_lights(inout Reflected sum, Surface s, ReflectionWeights w, vec3 N, vec3 V, vec2 ab) {
+// The specular part of one light that widens the lobe by `spread`.
+vec3 light_lobe(vec3 F0, float alpha, float spread, float sin2, vec3 cosines) {
+    float alpha2 = square(alpha);
+    vec3 whole = light_specular(F0, sin2, cosines, vec2(alpha2 + spread, alpha2));
+#ifdef HAS_SHARP
+    // What is not seen as a light is seen in the panorama (lobe_light), but for the tails.
+    float tails2 = square(square(wider_roughness(sqrt(alpha))));
+    vec3 tails = light_specular(F0, sin2, cosines, vec2(tails2 + spread, alpha2));
+    float share = min(alpha2 / tails2, 1.0);
+    whole = mix(share * tails, whole, analytic_share(alpha));
+#endif
+    return whole;
+}
+
+// Sources taken out of the environment's levels, as discs. spread: of the normals within the pixel.
+void add_lights(inout Reflected sum, Surface s, ReflectionWeights w, vec3 N, vec3 V) {
     vec3 F0 = base_reflectance(s.albedo, s.metallic);
-    float sharpest2 = square(level_layout.w);
-    float alpha2 = square(square(s.roughness));
-    float share = min(alpha2 / sharpest2, 1.0);
-    alpha2 = max(alpha2, sharpest2);
     float NoV = max(dot(N, V), 1e-4);
+    float spread = counts.x > 0.0 ? pixel_spread(N) : 0.0;
     for (int i = 0; i < PATINA_MAX_LIGHTS; ++i) {
         if (float(i) >= counts.x) break;
         vec3 L = light_direction[i].xyz;
@@ -35,33 +46,62 @@ void add_lights(inout Reflected sum, Surface s, ReflectionWeights w, vec3 N, vec
         vec3 side = cross(N, H);
         vec3 cosines = vec3(NoV, NoL, max(dot(V, H), 0.0));
         vec3 E = light_irradiance[i].rgb;
-        sum.specular += share * E * light_specular(F0, ab, dot(side, side), cosines, alpha2 + light_direction[i].w);
+        sum.specular += E * light_lobe(F0, square(s.roughness), light_direction[i].w + spread, dot(side, side), cosines);
+        sum.specular += w.multiple * E * (NoL / kPi);
         sum.diffuse += w.diffuse * E * (NoL / kPi);
     }
 }
 
+// How much of the environment's light reaches the point: diffuse, specular and what bounces more than once.
+struct Occlusion {
+    vec3 diffuse;
+    vec3 specular;
+    vec3 multiple;
+};
+
+Occlusion occlusion_of(Surface s, float NoV) {
+    Occlusion open;
+#ifdef HAS_COURSE
+    open.diffuse = open.specular = open.multiple = vec3(s.ao);
+#else
+    vec3 F0 = base_reflectance(s.albedo, s.metallic);
+    open.diffuse = multi_bounce_occlusion(s.ao, s.albedo);
+    open.multiple = multi_bounce_occlusion(s.ao, F0);
+    open.specular = multi_bounce_occlusion(specular_occlusion(NoV, s.ao, square(s.roughness)), F0);
+#endif
+    return open;
+}
+
 Reflected reflected_light(Surface s, vec3 N, vec3 V) {
+    s.roughness = widened_roughness(s.roughness, s.spread);
     float NoV = max(dot(N, V), 1e-4);
     vec3 R = reflect(-V, N);
-    float pixel = 0.0;
+    LobePoint p;
+    p.N = environment_direction(N);
+    p.V = environment_direction(V);
+    p.R = environment_direction(R);
+    p.NoV = NoV;
+    p.roughness = s.roughness;
+    p.ab = texture(brdf_table, vec2(sqrt(NoV), s.roughness)).rg;
+    p.f0 = luminance(base_reflectance(s.albedo, s.metallic));
+    p.irradiance = irradiance_light(p.N);
+    p.pixel = 0.0;
 #ifdef HAS_SHARP
     vec3 across = dFdx(R);
     vec3 up = dFdy(R);
     // At a silhouette, where R turns without end, the neighbours it is measured against lie beside the surface.
-    pixel = min(0.5 * (dot(across, across) + dot(up, up)), 0.05);
+    p.pixel = min(0.5 * (dot(across, across) + dot(up, up)), 0.05);
 #endif
-    vec2 ab = texture(brdf_table, vec2(sqrt(NoV), s.roughness)).rg;
 #ifdef HAS_COURSE
-    ReflectionWeights w = course_weights(s.albedo, s.metallic, s.roughness, NoV, ab);
+    ReflectionWeights w = course_weights(s.albedo, s.metallic, s.roughness, NoV, p.ab);
 #else
-    ReflectionWeights w = split_sum_weights(s.albedo, s.metallic, ab);
+    ReflectionWeights w = split_sum_weights(s.albedo, s.metallic, p.ab);
 #endif
-    vec3 prefiltered = specular_light(R, s.roughness, pixel);
-    vec3 irradiance = irradiance_light(N);
+    Occlusion open = occlusion_of(s, NoV);
     Reflected sum;
-    sum.specular = (w.single * prefiltered + w.multiple * irradiance) * s.ao;
-    sum.diffuse = w.diffuse * irradiance * s.ao;
-    add_lights(sum, s, w, N, V, ab);
+    sum.specular = w.single * lobe_light(p) * open.specular + w.multiple * p.irradiance * open.multiple;
+    sum.diffuse = w.diffuse * p.irradiance * open.diffuse;
+    add_lights(sum, s, w, N, V);
     return sum;
 }
 

@@ -11,6 +11,7 @@ out vec3 world_normal;
 out vec4 world_tangent;
 out vec2 mesh_uv;
 out vec2 map_uv;
+invariant gl_Position;   // a depth pass and a shading pass must agree to the last bit
 
 void main() {
     world_position = vertex_position;

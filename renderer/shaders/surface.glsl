@@ -31,6 +31,7 @@ struct Surface {
     float metallic;
     float ao;
     vec3 emission;
+    float spread;   // of the normals that the pixel averages, to be added to alpha²
 };
 
 // Not NaN (every comparison with NaN is false), not below the floor.
@@ -47,6 +48,10 @@ Surface read_surface(vec2 st) {
     s.metallic = scalar_bias.y;
     s.ao = scalar_bias.z;
     s.emission = vec3(0.0);
+    s.spread = 0.0;
+#ifdef HAS_NORMAL_MAP
+    s.spread = min(square(at_least(1.0 - texture(normal_map, st).a, 0.0) * normal_x.w), 1.0);   // as map_levels.h stores it
+#endif
 #ifdef HAS_ALBEDO_MAP
     s.albedo *= texture(albedo_map, st).rgb;
 #endif
@@ -111,4 +116,12 @@ vec3 shading_normal(vec3 V, vec2 st) {
     float NoV = dot(n, V);
     if (NoV < 1e-4) n = normalize(n + (1e-4 - NoV) * V);
     return n;
+}
+
+// Of the normals within the pixel: half vectors that a small light would hit or miss by chance are spread over it (Tokuyoshi
+// & Kaplanyan 2019). At a silhouette the neighbours it is measured against lie beside the surface.
+float pixel_spread(vec3 N) {
+    vec3 across = dFdx(N);
+    vec3 up = dFdy(N);
+    return min(0.5 * (dot(across, across) + dot(up, up)), 0.18);
 }

@@ -66,6 +66,33 @@ TEST(Render, exr_holds_linear_radiance_that_exposure_scales) {
         for (int x = 0; x < 32; ++x) EXPECT_NEAR(texel(bright, x, y, 1), 8.0f * texel(dark, x, y, 1), 8e-3f);
 }
 
+TEST(Render, leaves_out_only_what_the_picture_does_not_show) {
+    const Workspace work;
+    Image picture = make_image(256, 256, 3, PixelType::U8);
+    for (int y = 0; y < 256; ++y)
+        for (int x = 0; x < 256; ++x) {
+            set_texel(picture, x, y, 0, 0.8f);  // occlusion: one number
+            set_texel(picture, x, y, 1, 0.3f + 0.2f * std::sin(0.1f * float(x)) * std::cos(0.07f * float(y)));
+            set_texel(picture, x, y, 2, x > 128 ? 1.0f : 0.0f);
+        }
+    save_image(work.path("orm.png"), picture, {});
+    work.write("m.json", R"({"name": "Mapped", "albedo": {"value": [0.7, 0.5, 0.3]},
+        "ao": {"value": 1, "map": "orm.png", "channel": "r"},
+        "roughness": {"value": 1, "map": "orm.png", "channel": "g"},
+        "metallic": {"value": 1, "map": "orm.png", "channel": "b"}})");
+    for (const char* flag : {"--tonemap=neutral", "--no-skip"})
+        ASSERT_EQ(work.run({"render", "m.json", "-o", work.path(std::string(flag) + ".png"), "--size",
+                            "48x48", "--env", "furnace", flag})
+                      .exit_status,
+                  0);
+    const Image few = load_image(work.path("--tonemap=neutral.png")).image;
+    const Image all = load_image(work.path("--no-skip.png")).image;
+    for (int y = 0; y < 48; ++y)
+        for (int x = 0; x < 48; ++x)
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(texel(few, x, y, c), texel(all, x, y, c), 4.0f / 255.0f) << x << " " << y;
+}
+
 TEST(Render, the_same_command_twice_gives_the_same_bytes) {
     const Workspace work;
     for (const char* extension : {"png", "exr"}) {
@@ -346,6 +373,62 @@ TEST(Cache, a_second_render_gives_the_same_picture_from_the_cache) {
         if (entry.is_regular_file()) fs::resize_file(entry.path(), entry.file_size() / 2);
     ASSERT_EQ(work.run({"render", "-", "-o", "a.exr", "--size", "48x48", "--env", "sky"}).exit_status, 0);
     EXPECT_TRUE(cold == work.read("a.exr"));
+}
+
+TEST(Stats, say_what_was_computed_and_what_was_skipped) {
+    const Workspace work;
+    const auto stats = [&](const std::vector<std::string>& words) {
+        std::vector<std::string> all = words;
+        all.insert(all.end(), {"--stats", "s.json"});
+        const Outcome outcome = work.run(all);
+        EXPECT_EQ(outcome.exit_status, 0) << outcome.errors;
+        return nlohmann::json::parse(work.read("s.json"));
+    };
+    const std::vector<std::string> render{"render", "-", "-o", "a.png", "--size", "32x16", "--env", "studio"};
+    const nlohmann::json cold = stats(render);
+    EXPECT_EQ(cold["work"]["environments_decoded"], 1);
+    EXPECT_GE(cold["work"]["levels_baked"], 1);
+    EXPECT_EQ(cold["work"]["views_drawn"], 1);
+    EXPECT_EQ(cold["work"]["pixels_drawn"], 32 * 16);
+    EXPECT_EQ(cold["work"]["maps_decoded"], 0);
+    EXPECT_EQ(cold["work"]["tangent_frames"], 0);
+    EXPECT_FALSE(cold["skipped"].empty());
+    EXPECT_GT(cold["peak_memory_bytes"], 0);
+    const nlohmann::json warm = stats(render);
+    EXPECT_EQ(warm["work"]["levels_baked"], 0);
+    EXPECT_EQ(warm["work"]["bakes_from_disk"], 1);
+    const nlohmann::json textured = stats({"render", "worn-paint", "-o", "b.png", "--size", "32x16"});
+    EXPECT_GE(textured["work"]["maps_uploaded"], 1);
+    EXPECT_GT(textured["work"]["map_bytes_uploaded"], 0);
+    const nlohmann::json baked =
+        stats({"bake", "studio", "-o", "light", "--size", "16", "--levels", "0.5,1"});
+    EXPECT_EQ(baked["work"]["levels_baked"], 2);
+}
+
+/// A 1×1 24-bit BMP: the program's module for further formats reads it.
+std::string small_bmp() {
+    const std::string zeros(4, '\0');
+    return "BM" + std::string{58, 0, 0, 0} + zeros +
+           std::string{54, 0, 0, 0, 40, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0} + std::string{1, 0, 24, 0} + zeros +
+           zeros + zeros + zeros + zeros + zeros + std::string{10, 20, 30, 0};
+}
+
+TEST(Module, is_needed_by_rare_formats_alone_and_its_absence_is_one_sentence) {
+    const Workspace work;
+    work.write("dot.bmp", small_bmp());
+    work.write("rare.json", R"({"name": "Rare", "albedo": {"map": "dot.bmp"}})");
+    const std::vector<std::string> rare{"render", "rare.json", "-o",    "a.png",
+                                        "--size", "16x16",     "--env", "furnace"};
+    const Outcome with = work.run(rare);
+    EXPECT_EQ(with.exit_status, 0) << with.errors;
+    fs::remove(work.path("a.png"));
+    setenv("PATINA_MODULE_DIR", work.path("nowhere").c_str(), 1);
+    expect_one_sentence(work, rare, "dot.bmp: is a picture of the kind \"bmp\"");
+    // PNG maps, a Radiance panorama and EXR output never ask for it.
+    const Outcome without =
+        work.run({"render", "worn-paint", "-o", "b.exr", "--size", "16x16", "--env", "furnace"});
+    unsetenv("PATINA_MODULE_DIR");
+    EXPECT_EQ(without.exit_status, 0) << without.errors;
 }
 
 TEST(Edit, without_a_display_is_one_sentence) {

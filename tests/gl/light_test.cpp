@@ -101,6 +101,7 @@ TEST(Light, levels_are_mixed_in_the_logarithm_of_roughness) {
     Scene scene = make_scene(light, quad());
     scene.material.albedo.value = glm::vec3(1.0f);
     scene.material.metallic.value = 1.0f;
+    scene.view.shading = Shading::SplitSum;
     for (const float r : {0.1f, 0.105f, 0.14f, 0.2f, 0.314f, 0.5f, 0.66f, 0.9f}) {
         scene.material.roughness.value = r;
         const glm::vec3 seen = center(radiance_of(scene, glm::ivec2(33)));

@@ -70,6 +70,23 @@ TEST(MapLevels, normals_stay_unit_vectors) {
     EXPECT_EQ(byte_at(cancelled.levels.back(), 0, 0, 2), 255);
 }
 
+TEST(MapLevels, smaller_levels_of_a_normal_map_keep_how_far_its_normals_spread) {
+    // Tilted by ±45° in turn: the mean has length R = cos 45°, and the spread is (1 − R²)/(2R(3 − R²)).
+    const Image slopes = make_picture(
+        32, 32, [](int x, int) { return x % 2 == 0 ? glm::ivec3(218, 128, 218) : glm::ivec3(38, 128, 218); });
+    const MapLevels map = make_map_levels(slopes, MapKind::Normal, ColorSpace::Linear);
+    const float spread = 0.5f / (2.0f * std::sqrt(0.5f) * 2.5f);
+    EXPECT_EQ(byte_at(map.levels[0], 5, 5, 3), 255);
+    for (std::size_t i = 1; i < map.levels.size(); ++i)
+        EXPECT_NEAR(texel(map.levels[i], 0, 0, 3), 1.0f - std::sqrt(spread), 0.006f) << i;
+    const Image flat = make_picture(8, 8, [](int, int) { return glm::ivec3(128, 128, 255); });
+    EXPECT_EQ(byte_at(make_map_levels(flat, MapKind::Normal, ColorSpace::Linear).levels.back(), 0, 0, 3),
+              255);
+    Image own_alpha = make_image(2, 2, 4, PixelType::U8);  // means nothing in a normal map
+    EXPECT_EQ(byte_at(make_map_levels(own_alpha, MapKind::Normal, ColorSpace::Linear).levels[0], 0, 0, 3),
+              255);
+}
+
 TEST(MapLevels, a_normal_map_of_two_channels_gets_its_third) {
     Image picture = make_image(1, 1, 2, PixelType::U8);
     set_texel(picture, 0, 0, 0, 0.8f);

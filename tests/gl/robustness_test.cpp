@@ -70,7 +70,8 @@ TEST(Robustness, no_pixel_is_nan_infinite_or_negative_whatever_the_mesh_and_maps
         scene.material.roughness.value = float(random() % 3) * 0.5f;
         scene.material.emission.value = glm::vec3(float(random() % 2));
         scene.material.normal.value = 2.0f;
-        scene.view.shading = random() % 4 == 0 ? Shading::Course : Shading::SplitSum;
+        scene.view.shading = kShadings[random() % kShadings.size()].value;
+        scene.view.quality = kQualities[random() % kQualities.size()].value;
         scene.view.debug =
             round % 3 == 0 ? kDebugViews[random() % kDebugViews.size()].value : DebugView::Final;
         scene.camera.yaw_deg = round % 2 == 0 ? 0.0f : 179.0f;

@@ -33,25 +33,35 @@ forbid 'the renderer knows neither app nor ui' '#include "(app|ui)/' $(sources r
 forbid 'ui knows only materials and renderer/core' '#include "(app|renderer/(ibl|gl|renderer|features))' $(sources ui)
 
 # Packages behind one door each.
-forbid 'only image_io may name OpenImageIO' '#include <OpenImageIO' $(sources app renderer ui materials -- core/image_io.cpp)
+forbid 'only image_module may name OpenImageIO' '#include <OpenImageIO' \
+    $(sources app renderer ui materials -- core/image_module.cpp)
+forbid 'only image_exr_io may name OpenEXR' '#include <(Imf|Iex|Ilm|Imath|openexr)' \
+    $(sources app renderer ui materials -- core/image_exr_io.cpp)
+forbid 'only image_png_io may name libpng' '#include <png\.h' $(sources app renderer ui materials -- core/image_png_io.cpp)
+forbid 'only module_io may load code' '(dlopen|LoadLibrary[A-Za-z]*)\(' \
+    $(sources app renderer ui materials -- core/module_io.cpp)
 forbid 'only mesh_io may name OpenMesh' '#include <OpenMesh' $(sources app renderer ui materials -- core/mesh_io.cpp)
 forbid 'only report_pdf may name libharu' '#include <hpdf' $(sources app renderer ui materials -- app/report_pdf.cpp)
 forbid 'no Qt' '#include <Q[A-Z]' $(sources app renderer ui materials)
 
 # Actions.
-gl_rooms='renderer/gl/[^/]* renderer/renderer.cpp app/window.cpp app/headless.cpp'
+gl_rooms='renderer/gl/[^/]* renderer/renderer.cpp app/window.cpp app/headless.cpp app/bare_window.cpp'
 # shellcheck disable=SC2086
 forbid 'GL calls only in renderer/gl, renderer.cpp, window.cpp, headless.cpp' \
     '(^|[^A-Za-z0-9_:.>])gl[A-Z][A-Za-z0-9]*\(|<epoxy/' $(sources app renderer ui materials -- $gl_rooms)
-forbid 'ImGui calls only in ui and app/window.cpp' 'ImGui::|<imgui' $(sources app renderer materials -- app/window.cpp)
+forbid 'ImGui calls only in ui and app/window.cpp' 'ImGui::|<imgui' $(sources app renderer materials -- app/window.cpp app/bare_window.cpp)
 forbid 'threads and mutexes only in app/jobs' \
     'std::(jthread|thread|mutex|async|condition_variable)|<(thread|mutex|future|condition_variable)>' \
     $(sources app renderer ui materials -- app/jobs.cpp app/jobs.h)
 forbid 'files are opened only in *_io.cpp and the bake cache' \
     'std::[io]?fstream|<fstream>|[^a-z_]fopen\(' \
-    $(sources app renderer ui materials -- _io.cpp ibl/cache.cpp)
+    $(sources app renderer ui materials -- _io.cpp ibl/cache.cpp app/bare_window.cpp)
 forbid 'exceptions are caught only in main, jobs, plug-in calls and shader reload' '(^|[^a-z_])catch \(' \
-    $(sources renderer ui materials -- _io.cpp)
+    $(sources renderer ui materials -- _io.cpp lobes/fit_main.cpp)
+# But the system's file manager, by the one function that shows a folder in it.
+forbid 'no shell and no other program is started' \
+    '(^|[^A-Za-z0-9_.>])(system|popen|_popen|execlp?|execvp?e?|posix_spawnp?|ShellExecute[AW]?|CreateProcess[AW]?)\(' \
+    $(sources app renderer ui materials -- app/file_dialog.cpp)
 
 [ "$failed" = 0 ] && echo 'layering: every rule holds'
 exit "$failed"

@@ -26,6 +26,7 @@ Ended save(const Folder& folder, const std::vector<std::string>& words, const st
     std::vector<std::string> all{PATINA_SAVER};
     all.insert(all.end(), words.begin(), words.end());
     return run_process(all, {.environment = {{"LD_PRELOAD", PATINA_FAULT_SHIM},
+                                             {"ASAN_OPTIONS", "detect_leaks=0:verify_asan_link_order=0"},
                                              {"PATINA_FAULT_FOLDER", folder.path.string()},
                                              {"PATINA_FAULT_KIND", kind},
                                              {"PATINA_FAULT_AT", std::to_string(at)},

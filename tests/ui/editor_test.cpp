@@ -290,6 +290,16 @@ expect dirty            # the save was called off, so the new document was, too
 )"));
 }
 
+TEST(Editor, shows_an_imported_set_on_the_mesh_that_lies_with_it) {
+    const Folder home;
+    const fs::path scan = make_scan(home);
+    std::ofstream(scan / "plate.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+    EXPECT_DRIVEN(drive(home, "wait idle\ndrop " + scan.string() +
+                                  "\nwait until item import.apply\nclick import.apply\nwait idle\nexpect "
+                                  "mesh~plate.obj\nexpect triangles=2\nexpect albedo.state=ok\nexpect "
+                                  "albedo.map~BaseColor\n"));
+}
+
 TEST(Editor, opens_presets_meshes_and_environments_that_are_dropped_on_it) {
     const Folder home;
     write_preset(home / "gold.json", R"({"name": "Gold", "metallic": {"value": 1}})");

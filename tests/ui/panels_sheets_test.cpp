@@ -129,6 +129,18 @@ TEST(ImportSheet, shows_each_decision_and_applies_on_enter) {
     EXPECT_TRUE(stage.asked<request::ApplyImport>());
 }
 
+TEST(ImportSheet, offers_the_mesh_that_lay_with_the_maps) {
+    Stage stage;
+    stage.import_sheet = some_import();
+    stage.frames(4);
+    EXPECT_FALSE(stage.has("import.mesh"));
+    stage.import_sheet->mesh = "/home/ada/helmet/helmet.obj";
+    stage.frames(2);
+    EXPECT_TRUE(stage.import_sheet->use_mesh);
+    stage.click("import.mesh");
+    EXPECT_FALSE(stage.import_sheet->use_mesh);
+}
+
 TEST(ImportSheet, lets_a_decision_be_changed) {
     Stage stage;
     stage.import_sheet = some_import();
@@ -253,6 +265,25 @@ TEST(FileBrowser, saving_adds_the_extension_and_says_when_it_replaces) {
     EXPECT_NE(again.item("browser.confirm").tooltip, before);
     again.click("browser.confirm");
     EXPECT_EQ(again.asked<request::SaveAs>()->file, "/home/ada/gold.json");
+}
+
+TEST(FileBrowser, makes_a_folder_where_something_is_saved_and_saves_nothing_by_it) {
+    Stage stage;
+    stage.key('S', true, true);
+    open_folder(stage);
+    stage.click("browser.new_folder");
+    stage.frames(3);
+    stage.type("rocks");
+    stage.key(KeyEnter);
+    ASSERT_TRUE(stage.asked<request::MakeFolder>());
+    EXPECT_EQ(stage.asked<request::MakeFolder>()->folder, "/home/ada/rocks");
+    EXPECT_FALSE(stage.asked<request::SaveAs>());
+    EXPECT_TRUE(stage.browser.open);
+
+    Stage opening;
+    opening.key('O', true);
+    open_folder(opening);
+    EXPECT_FALSE(opening.has("browser.new_folder"));
 }
 
 TEST(FileBrowser, exports_a_picture_of_the_chosen_size) {

@@ -45,7 +45,7 @@ void save(const std::string& what, const std::string& where, const std::string& 
     } else if (what == "light") {
         BakeSettings settings;
         settings.roughness = {0.5f, 1.0f};
-        settings.max_face_size = 16;
+        settings.max_face_size = 4;
         const auto result = cached_bake(grey(0.5f), settings, {}, BakeCache{.folder = where});
         if (!result->note.empty()) throw std::runtime_error(result->note);
         std::puts(result->from_disk ? "found" : "baked");

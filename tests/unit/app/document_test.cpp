@@ -82,7 +82,7 @@ TEST(Document, describes_a_change_in_a_few_words) {
     EXPECT_EQ(describe_change(before, after), "3 values");
     after = {};
     after.material.albedo.map = "/a.png";
-    EXPECT_EQ(describe_change(before, after), "Base colour map");
+    EXPECT_EQ(describe_change(before, after), "Albedo map");
     after = {};
     after.view.env_rotation_deg = 10.0f;
     EXPECT_EQ(describe_change(before, after), "Light rotation");

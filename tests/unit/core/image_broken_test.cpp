@@ -12,11 +12,13 @@ namespace patina {
 namespace {
 
 namespace fs = std::filesystem;
+using test::big_endian;
 using test::Bytes;
 using test::bytes_of;
 using test::contains;
 using test::gradient;
 using test::load_error;
+using test::png_chunk;
 using test::TempFolder;
 
 struct Kind {
@@ -138,24 +140,6 @@ TEST(BrokenImage, names_in_any_script_work) {
 }
 
 // --- headers that promise the moon ---
-
-std::string big_endian(std::uint32_t value) {
-    return {static_cast<char>(value >> 24), static_cast<char>(value >> 16), static_cast<char>(value >> 8),
-            static_cast<char>(value)};
-}
-
-std::uint32_t crc32(std::string_view text) {
-    std::uint32_t crc = 0xFFFFFFFFu;
-    for (const char c : text) {
-        crc ^= static_cast<unsigned char>(c);
-        for (int i = 0; i < 8; ++i) crc = crc >> 1 ^ (0xEDB88320u & (0u - (crc & 1u)));
-    }
-    return ~crc;
-}
-
-std::string png_chunk(const std::string& type, const std::string& data) {
-    return big_endian(static_cast<std::uint32_t>(data.size())) + type + data + big_endian(crc32(type + data));
-}
 
 std::string png_of(std::uint32_t width, std::uint32_t height) {
     return "\x89PNG\r\n\x1a\n" +

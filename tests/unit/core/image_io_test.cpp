@@ -360,6 +360,16 @@ TEST(ImageIo, of_many_exr_channels_red_green_blue_alpha_are_read_by_name) {
     EXPECT_EQ(load_image_info(folder / "a.exr").channels, 4);
 }
 
+TEST(ImageIo, channels_of_a_layer_keep_the_order_of_colours) {
+    const TempFolder folder;
+    const Image image = gradient(5, 4, 3, PixelType::F32);
+    write_foreign(folder / "a.exr", image,
+                  {.type = OIIO::TypeDesc::FLOAT, .change = [](OIIO::ImageSpec& spec) {
+                       spec.channelnames = {"light.R", "light.G", "light.B"};
+                   }});
+    expect_equal(load_image(folder / "a.exr").image, image);
+}
+
 TEST(ImageIo, luminance_exr_is_grey) {
     const TempFolder folder;
     write_foreign(folder / "a.exr", gradient(5, 4, 2, PixelType::F32),

@@ -76,7 +76,7 @@ TEST(Lights, put_back_give_what_the_kernel_makes_of_them) {
     const PrefilterReference reference(taken);
     for (const double roughness : {0.06, 0.1, 0.4, 1.0}) {
         CubeMap cube{size, std::vector<glm::vec3>(std::size_t(6) * size * size, glm::vec3(0.0f))};
-        fold_back(extraction, float(roughness), cube, {});
+        fold_back(extraction, float(roughness), std::nullopt, cube, {});
         float largest = 0.0f;
         for (const glm::vec3& texel : cube.texels) largest = std::max(largest, texel.y);
         for (int i = 0; i < int(cube.texels.size()); i += 13) {

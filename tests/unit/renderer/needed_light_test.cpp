@@ -195,48 +195,5 @@ TEST(MissingLevels, of_two_pictures_are_those_of_either) {
     EXPECT_EQ(combined(both, both), both);
 }
 
-MapLevels picture(PixelType type, int channels) {
-    MapLevels map;
-    map.levels = {make_image(4, 2, channels, type)};
-    return map;
-}
-
-TEST(MapRange, spans_the_numbers_that_are_sampled) {
-    MapLevels map = picture(PixelType::U8, 4);
-    Image& image = map.levels[0];
-    for (int y = 0; y < 2; ++y)
-        for (int x = 0; x < 4; ++x)
-            for (int c = 0; c < 4; ++c) set_texel(image, x, y, c, 0.2f * float(c + 1));
-    set_texel(image, 3, 1, 1, 1.0f);
-    const ChannelRanges ranges = channel_ranges(map);
-    EXPECT_TRUE(ranges[0].is_single());
-    EXPECT_NEAR(ranges[0].low, 0.2f, 1e-6f);
-    EXPECT_NEAR(ranges[1].low, 0.4f, 1e-6f);
-    EXPECT_EQ(ranges[1].high, 1.0f);
-    map.levels.push_back(make_image(2, 1, 4, PixelType::U8));  // black: what smaller levels hold counts too
-    EXPECT_EQ(channel_ranges(map)[0].low, 0.0f);
-}
-
-TEST(MapRange, of_grey_is_the_same_in_every_colour) {
-    MapLevels map = picture(PixelType::U16, 1);
-    set_texel(map.levels[0], 2, 1, 0, 0.5f);
-    const ChannelRanges ranges = channel_ranges(map);
-    for (int c = 0; c < 3; ++c) {
-        EXPECT_EQ(ranges[c].low, 0.0f);
-        EXPECT_NEAR(ranges[c].high, 0.5f, 1e-4f);
-    }
-    EXPECT_EQ(ranges[3], (ValueRange{1.0f, 1.0f}));
-}
-
-TEST(MapRange, of_floating_point_numbers_is_clamped_where_the_shader_does) {
-    MapLevels map = picture(PixelType::F32, 1);
-    set_texel(map.levels[0], 0, 0, 0, -2.0f);
-    set_texel(map.levels[0], 1, 0, 0, 3.0f);
-    EXPECT_EQ(channel_ranges(map)[0], (ValueRange{-2.0f, 3.0f}));
-    EXPECT_EQ(scalar_range({.value = 0.5f, .map = "m"}, channel_ranges(map)), (ValueRange{0.0f, 1.0f}));
-    EXPECT_EQ(scalar_range({.value = 0.5f, .map = "m"}, std::nullopt), (ValueRange{0.5f, 0.5f}));
-    EXPECT_EQ(scalar_range({.value = 0.0f, .map = "m"}, channel_ranges(map)), (ValueRange{0.0f, 0.0f}));
-}
-
 }  // namespace
 }  // namespace patina

@@ -1,0 +1,228 @@
+#include "app/accuracy.h"
+
+#include "renderer/core/flip.h"
+#include "renderer/core/metrics.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace patina {
+
+namespace {
+
+constexpr double kStepSeconds = 0.03;   ///< of the reference a frame: the window answers in between
+constexpr int kFirstMeasurement = 256;  ///< samples that say something
+
+/// Everything a picture depends on.
+struct Signature {
+    EnvironmentHandle environment;
+    MeshHandle mesh;
+    std::array<MapHandle, kMapSlots> maps;
+    Material material;
+    Camera camera;
+    View view;
+    glm::ivec2 size{0};
+    bool operator==(const Signature&) const = default;
+};
+Signature signature_of(const Scene& scene, glm::ivec2 size) {
+    return {scene.environment, scene.mesh, scene.maps, scene.material, scene.camera, scene.view, size};
+}
+
+Scene with_shading(Scene scene, Shading shading) {
+    scene.view.shading = shading;
+    scene.view.debug = DebugView::Final;
+    return scene;
+}
+
+/// What is compared and what comes of it; made on a worker.
+struct Measured {
+    PictureError error;
+    double flip = 0.0;
+    Image error_map, flip_map;
+};
+struct Pictures {
+    Image shaded, reference, mask;
+};
+Measured measure(const Pictures& pictures) {
+    Measured measured;
+    measured.error = picture_error(pictures.shaded, pictures.reference, pictures.mask);
+    measured.error_map =
+        viridis_picture(relative_error(pictures.shaded, pictures.reference), ui::kErrorWhite);
+    const Image flip = hdr_flip(pictures.reference, pictures.shaded);
+    measured.flip = mean_value(flip, pictures.mask);
+    measured.flip_map = viridis_picture(flip, ui::kFlipWhite);
+    return measured;
+}
+
+}  // namespace
+
+struct AccuracyMeter::State {
+    Renderer& renderer;
+    Jobs& jobs;
+    std::unique_ptr<Reference> reference;
+    TargetHandle reference_target;
+    Signature seen;  ///< what the reference gathers
+    bool gathering = false;
+    bool wanted = false;
+    struct Other {
+        TargetHandle target;
+        Signature seen;
+    };
+    std::map<Shading, Other> others;  ///< pictures of other modes
+    Jobs::Id job = 0;
+    int measured_samples = 0;
+    Shading measured_mode = Shading::SplitSum;
+    Shading judged = Shading::SplitSum;
+    MapHandle error_map, flip_map;
+    ui::AccuracyStatus status;
+
+    void draw_other(const Scene& scene, glm::ivec2 size, Shading shading);
+    void gather(const Scene& scene, glm::ivec2 size);
+    void forget_measurement();
+    void start_measurement(const std::shared_ptr<State>& self, const Scene& scene);
+    bool measurement_due() const;
+};
+
+void AccuracyMeter::State::draw_other(const Scene& scene, glm::ivec2 size, Shading shading) {
+    Other& other = others[shading];
+    const Scene shown = with_shading(scene, shading);
+    const Signature now = signature_of(shown, size);
+    if (other.target && other.seen == now) return;
+    if (!other.target || Renderer::size_px(*other.target) != size) other.target = renderer.make_target(size);
+    renderer.draw(shown, *other.target);
+    other.seen = now;
+}
+
+void AccuracyMeter::State::forget_measurement() {
+    if (job != 0) jobs.stop(job);
+    job = 0;
+    measured_samples = 0;
+    error_map = flip_map = nullptr;
+    status = {};
+}
+
+void AccuracyMeter::State::gather(const Scene& scene, glm::ivec2 size) {
+    const Scene shown = with_shading(scene, Shading::Reference);
+    const Signature now = signature_of(shown, size);
+    if (!reference || reference->size_px() != size) {
+        reference_target = renderer.make_target(size, 1, TargetPrecision::Full);
+        reference = std::make_unique<Reference>(renderer, Renderer::size_px(*reference_target));
+        gathering = false;
+    }
+    if (!gathering || !(seen == now)) {
+        forget_measurement();
+        reference->restart(shown);
+        seen = now;
+        gathering = true;
+    }
+    if (reference->progress().done) return;
+    reference->draw_for(kStepSeconds);
+    reference->write(*reference_target);
+    const ReferenceProgress& progress = reference->progress();
+    status.samples = progress.samples;
+    status.converged = progress.converged;
+    status.done = progress.done;
+    if (progress.confidence) status.half_width = progress.confidence->p95;
+}
+
+/// At first early, then each time the samples have doubled, and at the end.
+bool AccuracyMeter::State::measurement_due() const {
+    if (!gathering || job != 0) return false;
+    if (measured_mode != judged && measured_samples > 0) return true;
+    const ReferenceProgress& progress = reference->progress();
+    if (progress.done) return measured_samples < progress.samples;
+    return progress.samples >= std::max(kFirstMeasurement, 4 * measured_samples);
+}
+
+void AccuracyMeter::State::start_measurement(const std::shared_ptr<State>& self, const Scene& scene) {
+    const Scene shown = with_shading(scene, judged);
+    const TargetHandle target =
+        renderer.make_target(Renderer::size_px(*reference_target), 4, TargetPrecision::Full);
+    status.frame_ms = renderer.timed_draw(shown, *target);
+    const auto pictures = std::make_shared<Pictures>(Pictures{renderer.read_radiance(*target),
+                                                              renderer.read_radiance(*reference_target),
+                                                              reference->inner_pixels()});
+    measured_samples = reference->progress().samples;
+    status.measured = status.measured && measured_mode == judged;
+    measured_mode = judged;
+    job = jobs.start(
+        "Measuring the shading's error",
+        [self, pictures](JobContext&) -> Jobs::Done {
+            const auto measured = std::make_shared<Measured>(measure(*pictures));
+            return [self, measured] {
+                self->job = 0;
+                self->status.measured = true;
+                self->status.rms = measured->error.rms;
+                self->status.p95 = measured->error.p95;
+                self->status.max = measured->error.max;
+                self->status.flip = measured->flip;
+                self->error_map = self->renderer.upload_thumbnail(measured->error_map);
+                self->flip_map = self->renderer.upload_thumbnail(measured->flip_map);
+            };
+        },
+        [self](const std::string&) { self->job = 0; });
+}
+
+AccuracyMeter::AccuracyMeter(Renderer& renderer, Jobs& jobs)
+    : state_(new State{.renderer = renderer,
+                       .jobs = jobs,
+                       .reference = {},
+                       .reference_target = {},
+                       .seen = {},
+                       .others = {},
+                       .error_map = {},
+                       .flip_map = {},
+                       .status = {}}) {}
+
+AccuracyMeter::~AccuracyMeter() = default;
+
+void AccuracyMeter::update(const Scene& scene, glm::ivec2 size_px, const ui::AccuracySettings& settings,
+                           bool held) {
+    State& state = *state_;
+    const bool final_picture = scene.view.debug == DebugView::Final;
+    state.judged = scene.view.shading == Shading::Reference ? View{}.shading : scene.view.shading;
+    const ui::Layer layers[] = {settings.left, settings.right};
+    bool measure = settings.meter;
+    bool reference = settings.meter || scene.view.shading == Shading::Reference;
+    for (int i = 0; i < (settings.split ? 2 : 1); ++i) {
+        const ui::Layer& layer = layers[i];
+        measure = measure || layer.kind == ui::Layer::Error || layer.kind == ui::Layer::Flip;
+        reference =
+            reference || measure || (layer.kind == ui::Layer::Mode && layer.mode == Shading::Reference);
+        if (layer.kind == ui::Layer::Mode && layer.mode != Shading::Reference)
+            state.draw_other(scene, size_px, layer.mode);
+    }
+    const bool moves =
+        held && !(state.seen == signature_of(with_shading(scene, Shading::Reference), size_px));
+    state.wanted = reference && final_picture && !moves;
+    if (!state.wanted) return;
+    state.gather(scene, size_px);
+    if (measure && state.measurement_due()) state.start_measurement(state_, scene);
+}
+
+bool AccuracyMeter::busy() const {
+    const State& state = *state_;
+    return state.wanted && (!state.gathering || !state.reference->progress().done);
+}
+
+ui::Viewport::Picture AccuracyMeter::picture(ui::Layer layer) const {
+    const State& state = *state_;
+    const auto map = [](const MapHandle& handle) -> ui::Viewport::Picture {
+        return handle ? ui::Viewport::Picture{Renderer::texture_of(*handle), false} : ui::Viewport::Picture{};
+    };
+    if (layer.kind == ui::Layer::Error) return map(state.error_map);
+    if (layer.kind == ui::Layer::Flip) return map(state.flip_map);
+    if (layer.kind != ui::Layer::Mode) return {};
+    if (layer.mode == Shading::Reference) {
+        if (!state.wanted || !state.gathering || state.reference->progress().samples == 0) return {};
+        return {Renderer::display_texture(*state.reference_target), true};
+    }
+    const auto found = state.others.find(layer.mode);
+    if (found == state.others.end() || !found->second.target) return {};
+    return {Renderer::display_texture(*found->second.target), true};
+}
+
+const ui::AccuracyStatus& AccuracyMeter::status() const { return state_->status; }
+
+}  // namespace patina

@@ -1,0 +1,34 @@
+// What the viewport shows beside the shaded picture: the reference as it gathers, how far the shading is from
+// it as a map and in numbers, and what a frame of it costs. Main thread, the renderer's context current.
+#pragma once
+
+#include "app/jobs.h"
+#include "renderer/reference.h"
+#include "ui/panel_context.h"
+
+#include <memory>
+
+namespace patina {
+
+class AccuracyMeter {
+public:
+    AccuracyMeter(Renderer& renderer, Jobs& jobs);
+    ~AccuracyMeter();
+    AccuracyMeter(const AccuracyMeter&) = delete;
+    AccuracyMeter& operator=(const AccuracyMeter&) = delete;
+
+    /// Once a frame, for what is asked of it: a step of the reference, pictures of other modes, measurements.
+    /// held: the artist holds something; while that changes the scene only real-time pictures are drawn.
+    void update(const Scene& scene, glm::ivec2 size_px, const ui::AccuracySettings& settings, bool held);
+    /// The reference has not come to its end: another frame would draw.
+    bool busy() const;
+    /// No texture for what is not there yet: the shaded picture stands in.
+    ui::Viewport::Picture picture(ui::Layer layer) const;
+    const ui::AccuracyStatus& status() const;
+
+private:
+    struct State;
+    std::shared_ptr<State> state_;
+};
+
+}  // namespace patina

@@ -1,0 +1,106 @@
+#include "app/bench_markdown.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+namespace patina {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+std::string number(double value, int digits) {
+    char text[64];
+    std::snprintf(text, sizeof(text), "%.*f", digits, value);
+    return text;
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+/// In the order they come.
+void add_once(std::vector<std::string>& names, const std::string& name) {
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+}
+
+/// Median time and worst rms error of a method at a roughness over the environments: "1.2 ms, 0.02 %".
+std::string cell(const Json& result, const std::string& method, double roughness) {
+    std::vector<double> ms;
+    double worst = 0.0;
+    for (const Json& environment : result.at("environments"))
+        for (const Json& level : environment.at("levels"))
+            if (level.at("method") == method && level.at("roughness").get<double>() == roughness) {
+                ms.push_back(level.at("ms").get<double>());
+                worst = std::max(worst, level.at("rms").get<double>());
+            }
+    if (ms.empty()) return "";
+    return number(median(ms), 1) + " ms, " + number(100.0 * worst, 3) + " %";
+}
+
+std::string methods_table(const Json& result) {
+    std::vector<std::string> methods;
+    std::vector<double> roughness;
+    for (const Json& environment : result.at("environments"))
+        for (const Json& level : environment.at("levels")) {
+            add_once(methods, level.at("method").get<std::string>());
+            const double r = level.at("roughness").get<double>();
+            if (std::ranges::find(roughness, r) == roughness.end()) roughness.push_back(r);
+        }
+    std::ranges::sort(roughness);
+    std::string text =
+        "One level alone: median time, worst relative rms error over the environments.\n\n| method |";
+    std::string rule = "|---|";
+    for (const double r : roughness) {
+        text += " r " + number(r, 2) + " |";
+        rule += "---|";
+    }
+    text += "\n" + rule + "\n";
+    for (const std::string& method : methods) {
+        text += "| " + method + " |";
+        for (const double r : roughness) text += " " + cell(result, method, r) + " |";
+        text += "\n";
+    }
+    return text;
+}
+
+std::string scaling_table(const Json& result) {
+    std::string text =
+        "\nAll standard levels and the irradiance.\n\n| panorama | threads | bake | first light | memory |\n"
+        "|---|---|---|---|---|\n";
+    for (const Json& row : result.at("scaling"))
+        text += "| " + std::to_string(row.at("width").get<int>()) + "×" +
+                std::to_string(row.at("height").get<int>()) + " | " +
+                std::to_string(row.at("threads").get<int>()) + " | " +
+                number(row.at("bake_ms").get<double>(), 1) + " ms | " +
+                number(row.at("first_light_ms").get<double>(), 1) + " ms | " +
+                number(row.at("peak_growth_mib").get<double>(), 0) + " MiB |\n";
+    return text;
+}
+
+std::string fetch_table(const Json& result) {
+    std::string text =
+        "\nWhat a bilinear look-up errs, relative rms.\n\n| roughness | face | error |\n|---|---|---|\n";
+    for (const Json& row : result.at("fetch"))
+        text += "| " + number(row.at("roughness").get<double>(), 3) + " | " +
+                std::to_string(row.at("face_size").get<int>()) + "² | " +
+                number(100.0 * row.at("rms").get<double>(), 3) + " % |\n";
+    return text;
+}
+
+}  // namespace
+
+std::string bench_markdown(std::string_view benchmark, const Json& result) {
+    if (benchmark != "ibl") return {};
+    std::string text = methods_table(result);
+    if (result.contains("scaling")) text += scaling_table(result);
+    if (result.contains("fetch")) text += fetch_table(result);
+    return text;
+}
+
+}  // namespace patina

@@ -1,0 +1,54 @@
+// What the work ledger is told and what it tells: counting of loads and bakes, and the JSON file of --stats.
+#pragma once
+
+#include "app/reconcile_light.h"
+#include "renderer/core/ledger.h"
+#include "renderer/core/mesh.h"
+#include "renderer/gl/light_levels.h"
+#include "renderer/map_levels.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace patina {
+
+/// All of an environment's light, newly baked.
+void count_bake(WorkLedger& work, const BakedEnvironment& baked);
+/// Light that a picture asked for, with what it did not need.
+void count_light(WorkLedger& work, const LightOrder& order, const ReadyLight& ready);
+/// A picture that became a map on the GPU.
+void count_map(WorkLedger& work, const Image& decoded, const MapLevels& uploaded);
+/// A mesh on the GPU; tangents: they were made for it.
+void count_mesh(WorkLedger& work, const Mesh& mesh, bool tangents);
+std::uint64_t bytes_of(const MapLevels& map);
+std::uint64_t bytes_of(const Mesh& mesh);
+/// Panorama included.
+std::uint64_t bytes_of(const PreparedLight& light);
+
+/// A moment of this process: on the steady clock (whose zero all processes share on most systems), with what
+/// it had used by then.
+struct ProcessMark {
+    double at_s = 0.0;
+    double cpu_s = 0.0;
+    std::uint64_t peak_memory_bytes = 0;
+};
+ProcessMark mark_process();
+
+/// {"work": {every counter}, "skipped": [{"what", "why", "times"}]}
+nlohmann::ordered_json to_json(const WorkLedger& work);
+/// The same, with "cpu_s" and "peak_memory_bytes" of this process so far. No file where its name is empty.
+void write_stats(const std::string& file, const WorkLedger& work);
+/// With "first_lit_frame", when the window first showed the object in its light.
+void write_stats(const std::string& file, const WorkLedger& work,
+                 const std::optional<ProcessMark>& first_lit_frame);
+
+/// CPU time of all threads of this process in seconds; the most memory it has had in bytes (0 where the
+/// system does not tell).
+double process_cpu_s();
+std::uint64_t process_peak_memory_bytes();
+
+}  // namespace patina

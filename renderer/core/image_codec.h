@@ -1,0 +1,58 @@
+// What image_io and the decoders of single formats say to each other. PNG and OpenEXR are decoded in the
+// program; the other formats by the module patina_images, which exports such a codec. Decoders throw
+// std::runtime_error with what follows the file's name in a sentence ("is damaged (…); copy or export it
+// again").
+#pragma once
+
+#include "renderer/core/image.h"
+#include "renderer/core/image_format.h"
+#include "renderer/core/image_io.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace patina {
+
+struct ImageSource {
+    const std::filesystem::path& file;
+    ImageFormat format = ImageFormat::Unknown;
+    std::span<const std::byte>
+        bytes;  ///< the whole file; empty where only its header is wanted, read from file
+};
+
+struct DecodedHeader {
+    ImageInfo info;  ///< as the picture is to be seen
+    ImageMetadata metadata;
+};
+struct DecodedImage {
+    LoadedImage loaded;
+    int orientation = 1;  ///< EXIF orientation 1…8 that is still to be applied
+};
+
+struct ImageCodec {
+    DecodedHeader (*header)(const ImageSource&) = nullptr;
+    DecodedImage (*decode)(const ImageSource&) = nullptr;
+};
+
+const ImageCodec& png_codec();
+const ImageCodec& exr_codec();
+/// The whole file. image is U8 or U16 for a PNG, F32 for an EXR (ZIP).
+std::vector<std::byte> encode_png(const Image& image, const ImageMetadata& metadata);
+std::vector<std::byte> encode_exr(const Image& image, const ImageMetadata& metadata);
+
+inline constexpr const char* kImageModule = "patina_images";
+/// extern "C" const patina::ImageCodec* of this name, without arguments, that is never null.
+inline constexpr const char* kImageModuleEntry = "patina_image_codec";
+
+/// What a decoder says of a size before it allocates anything; empty where that is acceptable.
+std::string size_problem(std::int64_t width, std::int64_t height);
+/// A library's own words: on one line, without the closing stop, not too long.
+std::string one_line(std::string text);
+/// "is damaged (reason); copy or export it again"
+std::string damaged(const std::string& reason);
+
+}  // namespace patina

@@ -1,0 +1,223 @@
+#include "renderer/gl/reference.h"
+
+#include "renderer/gl/program.h"
+#include "renderer/gl/texture.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace patina::gl {
+
+namespace {
+
+/// As light.glsl's light_color: of the nearest light, with a mean channel of 1.
+glm::vec3 light_color(const std::vector<ExtractedLight>& lights, glm::vec3 direction) {
+    const auto nearest = std::max_element(lights.begin(), lights.end(), [&](const auto& a, const auto& b) {
+        return glm::dot(a.direction, direction) < glm::dot(b.direction, direction);
+    });
+    const glm::vec3 E = nearest->irradiance;
+    return E * (3.0f / std::max(E.x + E.y + E.z, 1e-30f));
+}
+
+void no_filter(GLenum kind) {
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        glTexParameteri(kind, filter, GL_NEAREST);
+    glTexParameteri(kind, GL_TEXTURE_MAX_LEVEL, 0);
+}
+
+void require_complete(glm::ivec2 size) {
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+    throw std::runtime_error("The graphics driver cannot gather a reference picture of " +
+                             std::to_string(size.x) + "×" + std::to_string(size.y) +
+                             " in 32-bit floats: choose a smaller size.");
+}
+
+/// glGetTexImage's answer laid out without gaps, whatever others set.
+class PackTightly {
+public:
+    PackTightly() {
+        glGetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &buffer_);
+        glGetIntegerv(GL_PACK_ALIGNMENT, &alignment_);
+        glGetIntegerv(GL_PACK_ROW_LENGTH, &row_length_);
+        glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+        glPixelStorei(GL_PACK_ALIGNMENT, 1);
+        glPixelStorei(GL_PACK_ROW_LENGTH, 0);
+    }
+    ~PackTightly() {
+        glBindBuffer(GL_PIXEL_PACK_BUFFER, GLuint(buffer_));
+        glPixelStorei(GL_PACK_ALIGNMENT, alignment_);
+        glPixelStorei(GL_PACK_ROW_LENGTH, row_length_);
+    }
+    PackTightly(const PackTightly&) = delete;
+    PackTightly& operator=(const PackTightly&) = delete;
+
+private:
+    GLint buffer_ = 0, alignment_ = 4, row_length_ = 0;
+};
+
+}  // namespace
+
+namespace {
+
+void make_textures(ReferenceTarget& target) {
+    const glm::ivec2 size = target.size;
+    target.sum = Texture::make();
+    glBindTexture(GL_TEXTURE_2D, target.sum.name());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, size.x, size.y, 0, GL_RGBA, GL_FLOAT, nullptr);
+    no_filter(GL_TEXTURE_2D);
+    target.replicates = Texture::make();
+    glBindTexture(GL_TEXTURE_2D_ARRAY, target.replicates.name());
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_R32F, size.x, size.y, ReferenceTarget::kReplicates, 0, GL_RED,
+                 GL_FLOAT, nullptr);
+    no_filter(GL_TEXTURE_2D_ARRAY);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
+    target.depth = Renderbuffer::make();
+    glBindRenderbuffer(GL_RENDERBUFFER, target.depth.name());
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, size.x, size.y);
+    glBindRenderbuffer(GL_RENDERBUFFER, 0);
+}
+
+void make_framebuffers(ReferenceTarget& target) {
+    for (int i = 0; i < ReferenceTarget::kReplicates; ++i) {
+        target.framebuffers[i] = Framebuffer::make();
+        glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffers[i].name());
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.sum.name(), 0);
+        glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, target.replicates.name(), 0, i);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target.depth.name());
+        const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+        glDrawBuffers(2, both);
+        require_complete(target.size);
+    }
+}
+
+}  // namespace
+
+ReferenceTarget make_reference_target(glm::ivec2 size) {
+    const KeepDrawState keep;
+    const KeepTextureBindings keep_textures;
+    ReferenceTarget target;
+    target.size = size;
+    make_textures(target);
+    make_framebuffers(target);
+    target.mean =
+        make_program(embedded_shader("display.vert.glsl"), embedded_shader("reference_mean.frag.glsl"));
+    target.nothing = VertexArray::make();
+    check_memory("the reference picture");
+    clear_reference(target);
+    return target;
+}
+
+void clear_reference(ReferenceTarget& target) {
+    const KeepDrawState keep;
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDisable(GL_SCISSOR_TEST);
+    for (const Framebuffer& framebuffer : target.framebuffers) {
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+        const GLfloat black[] = {0.0f, 0.0f, 0.0f, 0.0f};
+        glClearBufferfv(GL_COLOR, 0, black);
+        glClearBufferfv(GL_COLOR, 1, black);
+    }
+}
+
+void set_reference_points(ReferenceTarget& target, const std::vector<glm::vec4>& rows) {
+    const KeepTextureBindings keep;
+    if (!target.points) target.points = Texture::make();
+    glBindTexture(GL_TEXTURE_2D, target.points.name());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, GLsizei(rows.size() / 3), 3, 0, GL_RGBA, GL_FLOAT,
+                 rows.data());
+    no_filter(GL_TEXTURE_2D);
+}
+
+void begin_reference_slice(const ReferenceTarget& target, int replicate, float weight) {
+    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffers[replicate].name());
+    glViewport(0, 0, target.size.x, target.size.y);
+    const GLfloat far = 1.0f;
+    glClearBufferfv(GL_DEPTH, 0, &far);
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE);
+    glBlendColor(0.0f, 0.0f, 0.0f, weight);
+}
+
+void begin_reference_pass(ReferencePass pass) {
+    const GLboolean color = pass == ReferencePass::Depth ? GL_FALSE : GL_TRUE;
+    const GLboolean replicate = pass == ReferencePass::Surface ? GL_TRUE : GL_FALSE;
+    glColorMaski(0, color, color, color, color);
+    glColorMaski(1, replicate, replicate, replicate, replicate);
+    glDepthMask(pass == ReferencePass::Depth ? GL_TRUE : GL_FALSE);
+    glDepthFunc(pass == ReferencePass::Surface ? GL_EQUAL : GL_LEQUAL);
+}
+
+void end_reference_slice() {
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glBlendFunc(GL_ONE, GL_ZERO);
+    glBlendColor(0.0f, 0.0f, 0.0f, 0.0f);
+    glDisable(GL_BLEND);
+}
+
+void write_reference_mean(const ReferenceTarget& target, float weight, const RenderTarget& to) {
+    const KeepDrawState keep;
+    const KeepTextureBindings keep_textures;
+    glBindFramebuffer(GL_FRAMEBUFFER, to.radiance_framebuffer.name());
+    for (const GLenum off : {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST}) glDisable(off);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glViewport(0, 0, target.size.x, target.size.y);
+    glUseProgram(target.mean.name());
+    glActiveTexture(GL_TEXTURE0 + kPictureUnit);
+    glBindSampler(kPictureUnit, 0);
+    glBindTexture(GL_TEXTURE_2D, target.sum.name());
+    glUniform2f(glGetUniformLocation(target.mean.name(), "reference_weight"), 1.0f / weight,
+                largest_radiance(to));
+    glBindVertexArray(target.nothing.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+std::vector<float> read_replicates(const ReferenceTarget& target) {
+    const PackTightly pack;
+    std::vector<float> values(std::size_t(target.size.x) * target.size.y * ReferenceTarget::kReplicates);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, target.replicates.name());
+    glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RED, GL_FLOAT, values.data());
+    glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
+    return values;
+}
+
+void wait_for_gpu() { glFinish(); }
+
+GpuTimer::GpuTimer() {
+    glGenQueries(1, &query_);
+    glBeginQuery(GL_TIME_ELAPSED, query_);
+}
+GpuTimer::~GpuTimer() { glDeleteQueries(1, &query_); }
+double GpuTimer::milliseconds() const {
+    glEndQuery(GL_TIME_ELAPSED);
+    GLuint64 nanoseconds = 0;
+    glGetQueryObjectui64v(query_, GL_QUERY_RESULT, &nanoseconds);
+    return double(nanoseconds) * 1e-6;
+}
+
+PanoramaTexels read_panorama(const GpuEnvironment& environment) {
+    const KeepTextureBindings keep;
+    const PackTightly pack;
+    PanoramaTexels texels;
+    glBindTexture(GL_TEXTURE_2D, environment.panorama->name());
+    glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &texels.width);
+    glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &texels.height);
+    std::vector<glm::vec4> stored(std::size_t(texels.width) * texels.height);
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, stored.data());
+    for (std::size_t i = 0; i < stored.size(); ++i) {
+        glm::vec3 radiance(stored[i]);
+        if (stored[i].a > 0.0f && !environment.panorama_lights.empty()) {
+            const glm::vec2 uv((float(i % texels.width) + 0.5f) / float(texels.width),
+                               (float(i / texels.width) + 0.5f) / float(texels.height));
+            radiance += stored[i].a * light_color(environment.panorama_lights, equirect_to_direction(uv));
+        }
+        texels.radiance.push_back(radiance * environment.panorama_scale);
+    }
+    return texels;
+}
+
+}  // namespace patina::gl

@@ -1,0 +1,72 @@
+// Float targets in which the reference picture gathers, and the passes over them.
+#pragma once
+
+#include "renderer/gl/environment.h"
+#include "renderer/gl/target.h"
+#include "renderer/ibl/light_sampler.h"
+
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <vector>
+
+namespace patina {
+
+/// Replicates are independent estimates of the picture; their scatter tells how well it is known.
+struct ReferenceTarget {
+    static constexpr int kReplicates = 8;
+    glm::ivec2 size{1};
+    gl::Texture sum;         ///< of all replicates, slices by their weights; alpha: coverage likewise
+    gl::Texture replicates;  ///< one layer each: likewise, the mean of the three channels, the mesh only
+    gl::Texture points;      ///< rows of shaders/reference.frag.glsl
+    gl::Renderbuffer depth;
+    std::array<gl::Framebuffer, kReplicates> framebuffers;  ///< sum and one replicate
+    gl::Program mean;
+    gl::VertexArray nothing;
+};
+
+namespace gl {
+
+/// Throws std::runtime_error where the driver has no room.
+ReferenceTarget make_reference_target(glm::ivec2 size);
+/// Everything back to black.
+void clear_reference(ReferenceTarget& target);
+/// rows: 3 × count values.
+void set_reference_points(ReferenceTarget& target, const std::vector<glm::vec4>& rows);
+
+/// Between begin and end what is drawn is added to a replicate and to the sum, weight (0…1) times; depth is
+/// clear.
+void begin_reference_slice(const ReferenceTarget& target, int replicate, float weight);
+/// In turn: depth alone; colour where depth is exactly what is there; what is behind, which no replicate has.
+enum class ReferencePass { Depth, Surface, Background };
+void begin_reference_pass(ReferencePass pass);
+void end_reference_slice();
+
+/// The mean so far into an ordinary target's radiance (one sample a pixel, the same size).
+/// weight: of all slices together, > 0.
+void write_reference_mean(const ReferenceTarget& target, float weight, const RenderTarget& to);
+
+/// One layer after the other, each bottom row first.
+std::vector<float> read_replicates(const ReferenceTarget& target);
+
+/// Returns when all that was asked of the driver is done.
+void wait_for_gpu();
+
+/// The time the GPU spends on what is asked of it between the constructor and milliseconds().
+class GpuTimer {
+public:
+    GpuTimer();
+    ~GpuTimer();
+    GpuTimer(const GpuTimer&) = delete;
+    GpuTimer& operator=(const GpuTimer&) = delete;
+    double milliseconds() const;  ///< ends the measurement and waits for it; call once
+
+private:
+    GLuint query_ = 0;
+};
+
+/// The panorama as the shader sees it, without exposure.
+PanoramaTexels read_panorama(const GpuEnvironment& environment);
+
+}  // namespace gl
+}  // namespace patina

@@ -1,0 +1,59 @@
+// Owen-scrambled Sobol points in three dimensions: every aligned run of 2^k of them is spread as evenly as
+// can be, and each scramble is an independent, unbiased set. Pure.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+
+namespace patina {
+
+/// Mixes 64 bits so that each depends on all (Vigna's splitmix64).
+inline std::uint64_t mix_bits(std::uint64_t x) {
+    x += 0x9e3779b97f4a7c15ull;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+    return x ^ (x >> 31);
+}
+
+/// Sobol's sequence with the direction numbers of Joe & Kuo 2008: x^1 (m = 1) and x² + x + 1 (m = 1, 3) after
+/// van der Corput's.
+inline std::uint32_t sobol_bits(std::uint32_t index, int dimension) {
+    std::uint32_t direction[32];
+    for (int i = 0; i < 32; ++i) {
+        if (dimension == 0)
+            direction[i] = 1u << (31 - i);
+        else if (dimension == 1)
+            direction[i] = i == 0 ? 1u << 31 : direction[i - 1] ^ (direction[i - 1] >> 1);
+        else
+            direction[i] = i == 0   ? 1u << 31
+                           : i == 1 ? 3u << 30
+                                    : direction[i - 1] ^ direction[i - 2] ^ (direction[i - 2] >> 2);
+    }
+    std::uint32_t bits = 0;
+    for (int i = 0; index != 0; ++i, index >>= 1)
+        if (index & 1u) bits ^= direction[i];
+    return bits;
+}
+
+/// Owen's scrambling: each bit is flipped or not by a coin that belongs to the bits above it.
+inline std::uint32_t owen_scrambled(std::uint32_t bits, std::uint64_t seed) {
+    std::uint32_t result = 0;
+    for (int i = 31; i >= 0; --i) {
+        const std::uint64_t prefix = i == 31 ? 0 : std::uint64_t(bits >> (i + 1)) + 1;
+        const std::uint64_t coin = mix_bits(seed ^ mix_bits(prefix * 64 + std::uint64_t(i)));
+        result |= ((bits >> i) & 1u) ^ std::uint32_t(coin & 1u) ? 1u << i : 0u;
+    }
+    return result;
+}
+
+/// The point of a sequence in [0, 1)³; equal seeds give the same sequence.
+inline glm::dvec3 scrambled_sobol(std::uint32_t index, std::uint64_t seed) {
+    glm::dvec3 point;
+    for (int i = 0; i < 3; ++i)
+        point[i] = owen_scrambled(sobol_bits(index, i), mix_bits(seed * 4 + std::uint64_t(i))) * 0x1p-32;
+    return point;
+}
+
+}  // namespace patina

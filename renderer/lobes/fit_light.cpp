@@ -1,0 +1,217 @@
+#include "renderer/lobes/fit_light.h"
+
+#include "renderer/brdf.h"
+#include "renderer/ibl/lights.h"
+#include "renderer/ibl/sampling.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace patina::lobes {
+
+namespace {
+
+constexpr int kSplit = 3;  ///< a light's texel is split kSplit × kSplit
+
+struct FacePoint {
+    int face = 0;
+    float s = 0.0f;  ///< −1…1
+    float t = 0.0f;
+};
+
+FacePoint face_point(glm::vec3 d) {
+    const glm::vec3 a = glm::abs(d);
+    if (a.x >= a.y && a.x >= a.z)
+        return d.x > 0.0f ? FacePoint{0, -d.z / a.x, -d.y / a.x} : FacePoint{1, d.z / a.x, -d.y / a.x};
+    if (a.y >= a.z)
+        return d.y > 0.0f ? FacePoint{2, d.x / a.y, d.z / a.y} : FacePoint{3, d.x / a.y, -d.z / a.y};
+    return d.z > 0.0f ? FacePoint{4, d.x / a.z, -d.y / a.z} : FacePoint{5, -d.x / a.z, -d.y / a.z};
+}
+
+glm::vec3 face_direction(FacePoint p) {
+    switch (p.face) {
+        case 0:
+            return {1.0f, -p.t, -p.s};
+        case 1:
+            return {-1.0f, -p.t, p.s};
+        case 2:
+            return {p.s, 1.0f, p.t};
+        case 3:
+            return {p.s, -1.0f, -p.t};
+        case 4:
+            return {p.s, -p.t, 1.0f};
+        default:
+            return {-p.s, -p.t, -1.0f};
+    }
+}
+
+void put(LaneCube& cube, const CubeMap& source, int lane, float scale) {
+    for (int row = 0; row < 6 * source.size; ++row)
+        for (int x = 0; x < source.size; ++x)
+            cube.texels[cube.at(row / source.size, x, row % source.size)][lane] =
+                scale * brdf::luminance(source.texels[std::size_t(row) * source.size + x]);
+}
+
+LaneCube halved(const LaneCube& source) {
+    LaneCube result(source.size / 2);
+    for (int face = 0; face < 6; ++face) {
+        for (int y = 0; y < result.size; ++y) {
+            for (int x = 0; x < result.size; ++x) {
+                double area = 0.0;
+                Lanes sum{};
+                for (int k = 0; k < 4; ++k) {
+                    const int sx = 2 * x + k % 2, sy = 2 * y + k / 2;
+                    const double own = cube_texel_solid_angle(source.size, sx, sy);
+                    add_scaled(sum, source.texels[source.at(face, sx, sy)], float(own));
+                    area += own;
+                }
+                Lanes& texel = result.texels[result.at(face, x, y)];
+                texel = {};
+                add_scaled(texel, sum, float(1.0 / area));
+            }
+        }
+    }
+    result.fill_border();
+    return result;
+}
+
+/// What was taken out of one environment, as many small lights.
+std::vector<LightSample> samples_of(const Environment& environment, const LightExtraction& extraction,
+                                    float scale) {
+    const TexelGrid grid{environment.width, environment.height};
+    std::vector<LightSample> samples;
+    for (const auto& texels : extraction.texels) {
+        for (const LightTexel& texel : texels) {
+            const double area = grid.area(texel.y) / (kSplit * kSplit);
+            for (int k = 0; k < kSplit * kSplit; ++k)
+                samples.push_back({glm::vec3(grid.direction(texel.x + (k % kSplit + 0.5) / kSplit,
+                                                            texel.y + (k / kSplit + 0.5) / kSplit)),
+                                   float(scale * brdf::luminance(texel.excess) * area)});
+        }
+    }
+    return samples;
+}
+
+Environment residual_of(const Environment& environment, const LightExtraction& extraction) {
+    Environment residual = environment;
+    for (const auto& texels : extraction.texels)
+        for (const LightTexel& texel : texels) {
+            glm::vec3& radiance = residual.radiance[std::size_t(texel.y) * environment.width + texel.x];
+            radiance = glm::max(radiance - texel.excess, glm::vec3(0.0f));
+        }
+    return residual;
+}
+
+void add_environment(FitLight& light, const Environment& environment, int lane) {
+    BakeSettings settings;
+    settings.extract_lights = true;
+    const BakedEnvironment baked = *bake_environment(environment, settings, {});
+    const RadianceStatistics statistics = radiance_statistics(view_of(environment), serial_for);
+    const LightExtraction extraction = extract_lights(environment, statistics, {});
+    const float scale = 1.0f / std::max(brdf::luminance(glm::vec3(statistics.mean_color)), 1e-12f);
+    if (light.levels.empty()) {
+        for (const PrefilteredLevel& level : baked.levels) {
+            light.roughness.push_back(level.roughness);
+            light.levels.emplace_back(level.cube.size);
+        }
+        light.irradiance.emplace_back(baked.irradiance.size);
+    }
+    for (std::size_t k = 0; k < baked.levels.size(); ++k)
+        put(light.levels[k], baked.levels[k].cube, lane, scale);
+    put(light.irradiance[0], baked.irradiance, lane, scale);
+    const Environment residual = residual_of(environment, extraction);
+    put(light.pyramid[0], resample_environment(residual, light.pyramid[0].size, serial_for), lane, scale);
+    FitLights lights{baked.lights, samples_of(environment, extraction, scale)};
+    for (ExtractedLight& source : lights.lights) source.irradiance *= scale;
+    light.lights.push_back(std::move(lights));
+}
+
+}  // namespace
+
+LaneCube::LaneCube(int face_size)
+    : size(face_size), texels(std::size_t(6) * (face_size + 2) * (face_size + 2), Lanes{}) {}
+
+void LaneCube::fill_border() {
+    const auto across = [&](int face, int x, int y) {
+        const auto center = [&](int i) { return (2.0f * float(i) + 1.0f) / float(size) - 1.0f; };
+        const FacePoint p = face_point(face_direction({face, center(x), center(y)}));
+        const auto index = [&](float c) {
+            return std::clamp(int((c + 1.0f) * 0.5f * float(size)), 0, size - 1);
+        };
+        return texels[at(p.face, index(p.s), index(p.t))];
+    };
+    for (int face = 0; face < 6; ++face) {
+        for (int k = -1; k <= size; ++k) {
+            for (int edge = 0; edge < 4; ++edge) {
+                const int x = edge == 0 ? -1 : edge == 1 ? size : k;
+                const int y = edge == 2 ? -1 : edge == 3 ? size : k;
+                const bool corner = (x < 0 || x >= size) && (y < 0 || y >= size);
+                if (!corner) {
+                    texels[at(face, x, y)] = across(face, x, y);
+                    continue;
+                }
+                const int cx = std::clamp(x, 0, size - 1), cy = std::clamp(y, 0, size - 1);
+                Lanes sum{};
+                add_scaled(sum, texels[at(face, cx, cy)], 1.0f / 3.0f);
+                add_scaled(sum, across(face, x, cy), 1.0f / 3.0f);
+                add_scaled(sum, across(face, cx, y), 1.0f / 3.0f);
+                texels[at(face, x, y)] = sum;
+            }
+        }
+    }
+}
+
+void LaneCube::add_to(Lanes& sum, glm::vec3 direction, float weight) const {
+    const FacePoint p = face_point(direction);
+    const float x = (p.s + 1.0f) * 0.5f * float(size) - 0.5f;
+    const float y = (p.t + 1.0f) * 0.5f * float(size) - 0.5f;
+    const int x0 = std::clamp(int(std::floor(x)), -1, size - 1);
+    const int y0 = std::clamp(int(std::floor(y)), -1, size - 1);
+    const float fx = x - float(x0), fy = y - float(y0);
+    const Lanes* upper = &texels[at(p.face, x0, y0)];
+    const Lanes* lower = upper + size + 2;
+    const float a = (1.0f - fx) * (1.0f - fy) * weight, b = fx * (1.0f - fy) * weight;
+    const float c = (1.0f - fx) * fy * weight, d = fx * fy * weight;
+    for (int i = 0; i < kLanes; ++i)
+        sum[i] += a * upper[0][i] + b * upper[1][i] + c * lower[0][i] + d * lower[1][i];
+}
+
+void FitLight::add_prefiltered(Lanes& sum, glm::vec3 direction, float log2_roughness, float weight) const {
+    float level = 0.0f;
+    for (std::size_t k = 0; k + 1 < roughness.size(); ++k) {
+        const float from = std::log2(roughness[k]), to = std::log2(roughness[k + 1]);
+        level += std::clamp((log2_roughness - from) / (to - from), 0.0f, 1.0f);
+    }
+    const int lower = std::min(int(level), int(roughness.size()) - 1);
+    const float share = level - float(lower);
+    levels[lower].add_to(sum, direction, weight * (1.0f - share));
+    if (share > 0.0f) levels[lower + 1].add_to(sum, direction, weight * share);
+}
+
+void FitLight::add_filtered(Lanes& sum, glm::vec3 direction, double solid_angle, float weight) const {
+    const double texel = 4.0 * std::numbers::pi / (6.0 * pyramid[0].size * pyramid[0].size);
+    const double lod = std::clamp(0.5 * std::log2(solid_angle / texel), 0.0, double(pyramid.size() - 1));
+    const int lower = int(lod);
+    const float share = float(lod - lower);
+    pyramid[lower].add_to(sum, direction, weight * (1.0f - share));
+    if (share > 0.0f) pyramid[lower + 1].add_to(sum, direction, weight * share);
+}
+
+FitLight make_fit_light(const std::vector<Environment>& environments, int source_size) {
+    assert(int(environments.size()) <= kLanes);
+    FitLight light;
+    light.count = int(environments.size());
+    light.pyramid.emplace_back(source_size);
+    for (int i = 0; i < light.count; ++i) add_environment(light, environments[i], i);
+    for (auto* cubes : {&light.levels, &light.irradiance})
+        for (LaneCube& cube : *cubes) cube.fill_border();
+    light.pyramid[0].fill_border();
+    while (light.pyramid.back().size > 4) light.pyramid.push_back(halved(light.pyramid.back()));
+    return light;
+}
+
+}  // namespace patina::lobes

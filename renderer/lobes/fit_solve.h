@@ -1,0 +1,29 @@
+// Finds the table of fitted lobes that comes nearest to the truth. Deterministic; knows no file.
+#pragma once
+
+#include "renderer/lobes/fit_light.h"
+#include "renderer/lobes/lobe_table.h"
+
+#include <functional>
+#include <vector>
+
+namespace patina::lobes {
+
+struct FitSettings {
+    int frames = 128;          ///< points and views each node is fitted on
+    int truth_samples = 4096;  ///< of a lobe
+    int sweeps = 26;           ///< over the table
+    double smoothness = 3e-4;  ///< weight of the second differences between nodes
+    std::function<void(const char* what, int step, int of, double error)> progress = [](auto...) {};
+};
+
+/// kLobeTableSize² nodes. Minimises the mean square relative error of P (brdf.glsl, 3) at F0 = 1, 0.2 and
+/// 0.04 node by node (Levenberg and Marquardt), with a pull towards the mean of the neighbours, in
+/// alternating sweeps.
+std::vector<LobePair> fit_lobes(const FitLight& light, const FitSettings& settings);
+
+/// P of one point by a node's lobes; two: both taps instead of one.
+Lanes lobe_radiance(const FitLight& light, const LobeNode& node, bool two, glm::vec3 R, glm::vec3 N,
+                    float roughness);
+
+}  // namespace patina::lobes

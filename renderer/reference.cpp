@@ -1,0 +1,219 @@
+#include "renderer/reference.h"
+
+#include "renderer/gl/reference.h"
+#include "renderer/ibl/low_discrepancy.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace patina {
+
+namespace {
+
+constexpr int kReplicates = ReferenceTarget::kReplicates;
+constexpr int kMostAtOnce = 64;  ///< points of a slice, each of which sees the pixel's area at one place
+constexpr int kMostOfMiddle = 256;
+constexpr float kWeightOfOne = 1.0f / 4096.0f;
+
+enum Stream : std::uint64_t { Light, Reflection, Pixel };
+std::uint64_t seed_of(std::uint64_t seed, Stream stream) { return mix_bits(mix_bits(seed) + stream); }
+
+/// Where a slice stands: which points of which replicate.
+struct Place {
+    int replicate = 0;
+    int first = 0;
+    int count = 1;
+};
+
+/// Replicates are consecutive runs of one sequence, each as long as it can become, a power of two: each is as
+/// evenly spread as a sequence of its own, and complete they are one even set together. Their mean is then
+/// nearer to the truth than their scatter says, never farther.
+std::uint32_t sequence_index(int replicate, int point, int longest) {
+    return std::uint32_t(replicate) * std::bit_ceil(std::uint32_t(longest)) + std::uint32_t(point);
+}
+
+int longest_of(const ReferenceOptions& options) {
+    return (options.max_samples + kReplicates - 1) / kReplicates;
+}
+
+/// Rows of shaders/reference.frag.glsl.
+std::vector<glm::vec4> make_points(const LightSampler& light, const Place& place,
+                                   const ReferenceOptions& options) {
+    const int count = place.count;
+    std::vector<glm::vec4> rows(3 * std::size_t(count));
+    for (int i = 0; i < count; ++i) {
+        const std::uint32_t index = sequence_index(place.replicate, place.first + i, longest_of(options));
+        const glm::dvec3 u = scrambled_sobol(index, seed_of(options.seed, Light));
+        const LightSample sample = light.sample({u.x, u.y});
+        rows[i] = glm::vec4(glm::vec3(sample.direction), float(sample.density));
+        rows[count + i] = glm::vec4(sample.radiance, 0.0f);
+        const glm::dvec3 v = scrambled_sobol(index, seed_of(options.seed, Reflection));
+        const double phi = 2.0 * std::numbers::pi * v.x;
+        rows[2 * count + i] = glm::vec4(glm::dvec4(std::cos(phi), std::sin(phi), v.y, v.z));
+    }
+    return rows;
+}
+
+double seconds_of(std::chrono::steady_clock::time_point since) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
+}
+
+}  // namespace
+
+struct Reference::State {
+    Renderer& renderer;
+    ReferenceOptions options;
+    ReferenceTarget target;
+    Scene scene;
+    std::shared_ptr<const LightSampler> light;
+    EnvironmentHandle light_of;
+    ReferenceProgress progress;
+    Place next;            ///< all replicates have the points before next.first
+    int round = 0;         ///< of one slice a replicate
+    int judged = 0;        ///< samples at the last judgement
+    int wanted_count = 0;  ///< points of a slice from the next round on; 0: as many as is good
+
+    int most_at_once() const;
+    int count_at_once() const { return wanted_count > 0 ? wanted_count : most_at_once(); }
+    glm::vec2 jitter_px() const;
+    void end_round();
+};
+
+/// Enough rounds that the pixel's area is covered and the scatter can be judged.
+int Reference::State::most_at_once() const {
+    const int share = std::max(1, options.max_samples / (8 * kReplicates));
+    return std::min(share, options.pixel_filter ? kMostAtOnce : kMostOfMiddle);
+}
+
+glm::vec2 Reference::State::jitter_px() const {
+    if (!options.pixel_filter) return glm::vec2(0.0f);
+    const std::uint32_t index = sequence_index(next.replicate, round, longest_of(options));
+    const glm::dvec3 u = scrambled_sobol(index, seed_of(options.seed, Pixel));
+    return glm::vec2(glm::dvec2(u.x, u.y) - 0.5);
+}
+
+void Reference::State::end_round() {
+    const int left = longest_of(options) - next.first - next.count;
+    next = {.replicate = 0, .first = next.first + next.count, .count = std::min(count_at_once(), left)};
+    ++round;
+    const bool last = left <= 0;
+    const bool judge = options.tolerance > 0.0 && round >= 4 && 4 * progress.samples >= 5 * judged;
+    if (last || judge) {
+        progress.confidence = confidence_of(gl::read_replicates(target), kReplicates);
+        progress.converged = progress.confidence->p95 <= options.tolerance;
+        judged = progress.samples;
+    }
+    progress.done = last || progress.converged;
+}
+
+Reference::Reference(Renderer& renderer, glm::ivec2 size_px, const ReferenceOptions& options)
+    : state_(new State{.renderer = renderer,
+                       .options = options,
+                       .target = gl::make_reference_target(size_px),
+                       .scene = {},
+                       .light = {},
+                       .light_of = {},
+                       .progress = {},
+                       .next = {}}) {}
+
+Reference::~Reference() = default;
+
+PanoramaTexels Reference::panorama_of(const EnvironmentHandle& environment) {
+    if (!environment) return {1, 1, {glm::vec3(0.0f)}};
+    return gl::read_panorama(*environment);
+}
+
+void Reference::restart(const Scene& scene, std::shared_ptr<const LightSampler> light) {
+    State& state = *state_;
+    if (light)
+        state.light = std::move(light);
+    else if (!state.light || state.light_of != scene.environment)
+        state.light = std::make_shared<LightSampler>(panorama_of(scene.environment));
+    state.light_of = scene.environment;
+    state.scene = scene;
+    state.progress = {};
+    state.round = state.judged = 0;
+    state.next = {.count = state.count_at_once()};
+    gl::clear_reference(state.target);
+}
+
+glm::ivec2 Reference::size_px() const { return state_->target.size; }
+const ReferenceProgress& Reference::progress() const { return state_->progress; }
+
+void Reference::draw() {
+    State& state = *state_;
+    if (state.progress.done || !state.light) return;
+    gl::set_reference_points(state.target, make_points(*state.light, state.next, state.options));
+    const Renderer::ReferenceSlice slice{.replicate = state.next.replicate,
+                                         .points = state.next.count,
+                                         .weight = float(state.next.count) * kWeightOfOne,
+                                         .total = state.light->total(),
+                                         .jitter_px = state.jitter_px()};
+    state.renderer.draw_reference(state.scene, state.target, slice);
+    state.progress.samples += state.next.count;
+    if (++state.next.replicate == kReplicates) state.end_round();
+}
+
+void Reference::draw_for(double seconds) {
+    State& state = *state_;
+    if (state.wanted_count == 0) state.wanted_count = state.next.count = 1;
+    const auto begin = std::chrono::steady_clock::now();
+    for (int slices = 1; !state.progress.done; ++slices) {
+        const int count = state.next.count;
+        draw();
+        gl::wait_for_gpu();
+        const double spent = seconds_of(begin);
+        // A slice that fills half the time leaves room for another that takes longer.
+        const double slice = std::max(spent / slices, 1e-6);
+        const double ratio = std::clamp(0.5 * seconds / slice, 0.25, 2.0);
+        state.wanted_count = std::clamp(int(std::lround(count * ratio)), 1, state.most_at_once());
+        if (spent + slice > seconds) return;
+    }
+}
+
+void Reference::finish() {
+    while (!state_->progress.done) draw();
+}
+
+void Reference::write(RenderTarget& target) const {
+    const State& state = *state_;
+    target.plain = state.scene.view.plain_color;
+    gl::write_reference_mean(state.target, float(state.progress.samples) * kWeightOfOne, target);
+    state.renderer.show(state.scene.view, target);
+}
+
+Image Reference::inner_pixels() const {
+    const glm::ivec2 size = state_->target.size;
+    const std::vector<float> values = gl::read_replicates(state_->target);
+    const auto covered = [&](int x, int y) {  // rows from the bottom
+        if (x < 0 || y < 0 || x >= size.x || y >= size.y) return true;
+        for (int k = 0; k < kReplicates; ++k)
+            if (!(values[(std::size_t(k) * size.y + y) * size.x + x] > 0.0f)) return false;
+        return true;
+    };
+    Image mask = make_image(size.x, size.y, 1, PixelType::U8);
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            bool inside = true;
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx) inside = inside && covered(x + dx, y + dy);
+            set_texel(mask, x, size.y - 1 - y, 0, inside ? 1.0f : 0.0f);
+        }
+    return mask;
+}
+
+TargetHandle draw_reference(Renderer& renderer, const Scene& scene, glm::ivec2 size_px,
+                            const ReferenceOptions& options) {
+    TargetHandle target = renderer.make_target(size_px, 1, TargetPrecision::Full);
+    Reference reference(renderer, Renderer::size_px(*target), options);
+    reference.restart(scene);
+    reference.finish();
+    reference.write(*target);
+    return target;
+}
+
+}  // namespace patina

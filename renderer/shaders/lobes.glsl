@@ -1,0 +1,83 @@
+// What the environment sends into the specular lobe of a point: P of brdf.glsl's equation (2), by the shading mode.
+
+#ifdef HAS_FITTED
+uniform sampler3D lobe_table;   // over (√NoV, roughness); pairs of slices for F0 = 1 and 0.04 (renderer/lobes)
+#endif
+
+// A point as its lobe needs it, directions in the environment's frame.
+struct LobePoint {
+    vec3 N;
+    vec3 V;
+    vec3 R;
+    float NoV;
+    float roughness;
+    vec2 ab;            // A and B
+    float f0;           // luminance of F0
+    vec3 irradiance;    // E/π
+    float pixel;        // solid angle that R covers in this pixel
+};
+
+#ifdef HAS_FITTED
+vec4 lobe_slice(LobePoint p, float first) {
+    vec3 size = vec3(textureSize(lobe_table, 0));
+    vec2 at = lobe_coordinates(p.NoV, p.roughness) * (size.xy - 1.0) + 0.5;
+    return textureLod(lobe_table, vec3(at, first + 0.5 + fresnel_share(p.f0, p.ab)) / size, 0.0);
+}
+#endif
+
+// Of a lobe no sharper than the sharpest level; a sharper one is taken for that.
+vec3 wide_lobe_light(LobePoint p) {
+    float log2_roughness = log2(max(p.roughness, level_layout.z));
+#ifdef HAS_FITTED
+    float alpha = max(square(p.roughness), level_layout.w);
+#ifdef HAS_TWO_TAPS
+    vec4 taps = lobe_slice(p, 2.0);
+    vec2 weights = lobe_slice(p, 4.0).xy;   // of the second tap and the irradiance
+    vec3 light = (1.0 - weights.x - weights.y) *
+                 prefiltered_light(tap_direction(p.R, p.N, taps.x, alpha), log2_roughness + taps.y);
+    light += weights.x * prefiltered_light(tap_direction(p.R, p.N, taps.z, alpha), log2_roughness + taps.w);
+    return light + weights.y * p.irradiance;
+#else
+    vec3 tap = lobe_slice(p, 0.0).xyz;
+    vec3 light = prefiltered_light(tap_direction(p.R, p.N, tap.x, alpha), log2_roughness + tap.y);
+    return mix(light, p.irradiance, tap.z);
+#endif
+#else
+    return prefiltered_light(p.R, log2_roughness);
+#endif
+}
+
+#ifdef HAS_SHARP
+// The wider lobe whose tails are those of a sharp one.
+float wider_roughness(float roughness) {
+#ifdef HAS_FITTED
+    return tail_roughness(roughness, level_layout.z);
+#else
+    return max(roughness, level_layout.z);
+#endif
+}
+
+// A lobe that is wide as panorama texels sees extracted lights as lights: sampled there they would flicker. A mirror sees
+// them in the panorama, as the picture they are.
+float analytic_share(float alpha) { return counts.x > 0.0 ? smoothstep(0.0009, 0.0036, alpha) : 0.0; }
+#endif
+
+vec3 lobe_light(LobePoint p) {
+#ifdef HAS_SHARP
+    float alpha = square(p.roughness);
+    p.roughness = wider_roughness(p.roughness);
+    float alpha1 = square(p.roughness);
+    float tails = min(square(alpha / alpha1), 1.0);
+#endif
+    vec3 light = wide_lobe_light(p);
+#ifdef HAS_SHARP
+    vec4 lights_and_pixel = vec4((1.0 - analytic_share(alpha)) * light_color(p.R), p.pixel);
+#ifdef HAS_FITTED
+    vec3 core = core_light(p.N, p.V, vec2(alpha, alpha1), p.f0, lights_and_pixel);
+#else
+    vec3 core = core_light(p.R, p.R, vec2(alpha, alpha1), p.f0, lights_and_pixel);
+#endif
+    light = tails * light + (1.0 - tails) * core;
+#endif
+    return light;
+}

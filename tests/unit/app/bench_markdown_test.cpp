@@ -1,0 +1,36 @@
+#include "app/bench_markdown.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace patina {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+TEST(BenchMarkdown, lists_methods_by_roughness_with_the_worst_error) {
+    Json result{{"environments", Json::array()}};
+    for (const double rms : {0.01, 0.02})
+        result["environments"].push_back(
+            {{"levels",
+              Json::array({{{"method", "transform"}, {"roughness", 1.0}, {"ms", 2.0}, {"rms", rms}},
+                           {{"method", "transform"}, {"roughness", 0.1}, {"ms", 3.0}, {"rms", rms}},
+                           {{"method", "sampling 64"}, {"roughness", 1.0}, {"ms", 9.0}, {"rms", 0.5}}})}});
+    result["scaling"] = Json::array({{{"width", 512},
+                                      {"height", 256},
+                                      {"threads", 2},
+                                      {"bake_ms", 30.0},
+                                      {"first_light_ms", 1.25},
+                                      {"peak_growth_mib", 20.0}}});
+    result["fetch"] = Json::array({{{"roughness", 0.1}, {"face_size", 128}, {"rms", 0.015}}});
+    const std::string text = bench_markdown("ibl", result);
+    EXPECT_NE(text.find("| method | r 0.10 | r 1.00 |"), std::string::npos) << text;
+    EXPECT_NE(text.find("| transform | 3.0 ms, 2.000 % | 2.0 ms, 2.000 % |"), std::string::npos) << text;
+    EXPECT_NE(text.find("| sampling 64 |  | 9.0 ms, 50.000 % |"), std::string::npos) << text;
+    EXPECT_NE(text.find("| 512×256 | 2 | 30.0 ms | 1.2 ms | 20 MiB |"), std::string::npos) << text;
+    EXPECT_NE(text.find("| 0.100 | 128² | 1.500 % |"), std::string::npos) << text;
+    EXPECT_TRUE(bench_markdown("light", result).empty());
+}
+
+}  // namespace
+}  // namespace patina

@@ -1,0 +1,129 @@
+#include "renderer/ibl/reflection.h"
+
+#include "renderer/ibl/bake.h"
+#include "renderer/ibl/light_sampler.h"
+#include "renderer/ibl/low_discrepancy.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+namespace patina {
+namespace {
+
+Environment panorama(int width, const std::function<glm::vec3(glm::vec3)>& radiance) {
+    Environment environment;
+    environment.width = width;
+    environment.height = width / 2;
+    for (int y = 0; y < environment.height; ++y)
+        for (int x = 0; x < width; ++x)
+            environment.radiance.push_back(radiance(equirect_to_direction(
+                {(float(x) + 0.5f) / float(width), (float(y) + 0.5f) / float(environment.height)})));
+    return environment;
+}
+
+TEST(ReflectionReference, knows_the_closed_form_at_normal_incidence) {
+    const glm::dvec2 ab = reference_split_sum(1.0, 1.0);
+    EXPECT_NEAR(ab.x + ab.y, 1.0 - std::log(2.0), 1e-5);
+}
+
+TEST(ReflectionReference, agrees_with_the_table) {
+    const BrdfTable table = bake_brdf_table(64);
+    for (const int y : {6, 18, 40, 63})
+        for (const int x : {10, 22, 41, 63}) {
+            const double NoV = std::pow((x + 0.5) / 64, 2);
+            const glm::dvec2 ab = reference_split_sum(NoV, (y + 0.5) / 64);
+            EXPECT_NEAR(ab.x, double(table.ab[y * 64 + x].x), 1e-3) << x << " " << y;
+            EXPECT_NEAR(ab.y, double(table.ab[y * 64 + x].y), 1e-3) << x << " " << y;
+        }
+}
+
+TEST(ReflectionReference, reflects_all_light_of_a_white_room) {
+    const Environment white = panorama(16, [](glm::vec3) { return glm::vec3(1.0f); });
+    const ReflectionReference reference(white);
+    for (const double metallic : {0.0, 1.0})
+        for (const double roughness : {0.1, 0.4, 1.0})
+            for (const double NoV : {0.1, 0.6, 1.0}) {
+                const glm::dvec3 V(std::sqrt(1.0 - NoV * NoV), NoV, 0.0);
+                const glm::dvec3 Lo =
+                    reference.radiance({0.0, 1.0, 0.0}, V, {glm::dvec3(1.0), metallic, roughness});
+                EXPECT_NEAR(Lo.x, 1.0, 2e-4) << metallic << " " << roughness << " " << NoV;
+            }
+}
+
+TEST(ReflectionReference, knows_the_irradiance_of_a_linear_sky) {
+    // L = 1 + d·a gives E/π = 1 + ⅔ N·a.
+    const glm::vec3 a(0.3f, 0.5f, -0.2f);
+    const Environment sky = panorama(256, [&](glm::vec3 d) { return glm::vec3(1.0f + glm::dot(d, a)); });
+    const glm::dvec3 N = glm::normalize(glm::dvec3(1.0, 2.0, 0.5));
+    const auto parts = ReflectionReference(sky).parts(N, N, 0.7);
+    EXPECT_NEAR(parts.irradiance.x, 1.0 + 2.0 / 3.0 * glm::dot(N, glm::dvec3(a)), 2e-4);
+}
+
+TEST(ReflectionReference, does_not_depend_on_how_the_sky_is_cut_into_texels) {
+    // The same quarters of the sphere as 4 × 2 and as 128 × 64 texels.
+    const auto quarters = [](glm::vec3 d) {
+        return glm::vec3(d.x > 0.0f ? 3.0f : 0.2f, d.y > 0.0f ? 1.0f : 0.1f, d.z > 0.0f ? 0.5f : 2.0f);
+    };
+    const Environment coarse = panorama(4, quarters), fine = panorama(128, quarters);
+    for (const double roughness : {0.08, 0.3, 0.8}) {
+        const ReflectingSurface surface{{0.9, 0.5, 0.2}, 0.6, roughness};
+        const glm::dvec3 N = glm::normalize(glm::dvec3(0.3, 0.4, 0.8)),
+                         V = glm::normalize(glm::dvec3(0.9, 0.2, 0.3));
+        const glm::dvec3 one = ReflectionReference(coarse).radiance(N, V, surface);
+        const glm::dvec3 two = ReflectionReference(fine).radiance(N, V, surface);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(one[c] / two[c], 1.0, 5e-5) << roughness;
+    }
+}
+
+TEST(LightSampler, draws_texels_by_their_light) {
+    PanoramaTexels texels{8, 4, std::vector<glm::vec3>(32, glm::vec3(0.0f))};
+    texels.radiance[8 + 3] = glm::vec3(6.0f, 0.0f, 0.0f);
+    texels.radiance[16 + 6] = glm::vec3(0.0f, 2.0f, 0.0f);
+    const LightSampler sampler(texels);
+    int red = 0;
+    double area = 0.0;
+    constexpr int count = 4096;
+    for (int i = 0; i < count; ++i) {
+        const glm::dvec3 u = scrambled_sobol(std::uint32_t(i), 7);
+        const LightSample sample = sampler.sample({u.x, u.y});
+        ASSERT_GT(sample.density, 0.0);
+        ASSERT_NEAR(glm::length(sample.direction), 1.0, 1e-12);
+        const glm::vec2 uv = direction_to_equirect(glm::vec3(sample.direction));
+        const int x = int(uv.x * 8), y = int(uv.y * 4);
+        EXPECT_EQ(sample.radiance, texels.radiance[std::size_t(y) * 8 + x]);
+        red += sample.radiance.x > 0.0f;
+        area += 1.0 / sample.density / count;
+    }
+    EXPECT_NEAR(red / double(count), 0.75, 2e-3);  // both rows are as high
+    EXPECT_NEAR(area, 2.0 * 2.0 * std::numbers::pi / 8.0 * std::sqrt(0.5), 1e-3);
+}
+
+TEST(LightSampler, without_light_looks_everywhere) {
+    const LightSampler sampler({4, 2, std::vector<glm::vec3>(8, glm::vec3(0.0f))});
+    EXPECT_EQ(sampler.total(), 0.0);
+    EXPECT_NEAR(sampler.sample({0.3, 0.6}).density, 0.25 / std::numbers::pi, 1e-12);
+}
+
+TEST(LowDiscrepancy, points_fill_every_elementary_interval_once) {
+    for (const std::uint64_t seed : {1ull, 99ull}) {
+        for (int first = 0; first < 128; first += 64)
+            for (int k = 0; k <= 6; ++k) {  // 2^k columns, 2^(6−k) rows
+                std::set<std::pair<int, int>> cells;
+                for (int i = first; i < first + 64; ++i) {
+                    const glm::dvec3 u = scrambled_sobol(std::uint32_t(i), seed);
+                    cells.insert({int(u.x * (1 << k)), int(u.y * (1 << (6 - k)))});
+                }
+                EXPECT_EQ(cells.size(), 64u) << seed << " " << k;
+            }
+        std::set<int> third;
+        for (int i = 0; i < 64; ++i) third.insert(int(scrambled_sobol(std::uint32_t(i), seed).z * 64));
+        EXPECT_EQ(third.size(), 64u);
+    }
+}
+
+}  // namespace
+}  // namespace patina
