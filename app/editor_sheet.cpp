@@ -98,7 +98,10 @@ void take_binding(Editor& editor, const ViewBinding& before, const ViewBinding& 
     light.background = after.view.background;
     light.plain_color = after.view.plain_color;
     if (after.environment != before.environment) light.title.clear();
-    sheet.shading = after.view.shading;
+    if (is_reference(after.view) && !is_reference(before.view))
+        say_status(editor, "The reference gathers one view at a time; go back to the one view for it.");
+    else
+        sheet.shading = after.view.shading;
     sheet.mesh = after.mesh;
     document.view.debug = after.view.debug;
 }
