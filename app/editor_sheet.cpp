@@ -102,6 +102,7 @@ void take_binding(Editor& editor, const ViewBinding& before, const ViewBinding& 
         say_status(editor, "The reference gathers one view at a time; go back to the one view for it.");
     else
         sheet.shading = after.view.shading;
+    sheet.quality = after.view.quality;
     sheet.mesh = after.mesh;
     document.view.debug = after.view.debug;
 }

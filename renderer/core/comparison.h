@@ -85,7 +85,8 @@ struct Comparison {
     std::string title, author, remarks;
     std::string mesh = "sphere";  ///< id or path
     Camera camera;                ///< of every view
-    Shading shading = Shading::SplitSum;
+    Shading shading = View{}.shading;
+    Quality quality = View{}.quality;
     std::vector<ComparedPreset> rows;
     std::vector<Lighting> columns;  ///< the grid is rows × columns
     std::vector<FreeView> views;    ///< after it
