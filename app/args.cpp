@@ -160,7 +160,22 @@ void add_render_and_compare(CLI::App& root, Args& args) {
         ->allow_extra_args(false);
     compare->add_option("--env", args.render.scene.environments, "Environments, one column each")
         ->type_name("ID|FILE...");
+    render
+        ->add_option(
+            "--turntable", args.render.turntable,
+            "Draw a whole turn in N pictures: -o turn.png gives turn-001.png and so on, -o turn.mp4 a video "
+            "where ffmpeg is installed")
+        ->check(CLI::Range(2, 9999))
+        ->type_name("N");
+    render
+        ->add_option_function<std::string>(
+            "--turn", [&args](const std::string& text) { args.render.turn_light = text == "light"; },
+            "What goes round in a turntable (default camera)")
+        ->check(CLI::IsMember({"camera", "light"}))
+        ->type_name("camera|light");
     for (CLI::App* app : {render, compare}) {
+        app->add_flag("--up-to-date", args.render.up_to_date,
+                      "Leave a picture alone that was made from the same files and options by this version");
         app->add_option("-o,--output", args.render.output,
                         "The picture to write: .png (display) or .exr (linear radiance)")
             ->required()

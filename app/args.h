@@ -21,7 +21,7 @@ struct SceneOptions {
     View view;
     Camera camera;
     glm::ivec2 size_px{512, 512};
-    int samples = 1024;  ///< points a pixel of the reference
+    int samples = 1024;                                          ///< points a pixel of the reference
     std::vector<std::pair<std::string, std::string>> overrides;  ///< --set key=value, in order
     bool allow_missing_maps = false;                             ///< draw the placeholder instead of failing
     bool skip = true;  ///< false: prepare what any picture could need, for comparison
@@ -40,7 +40,10 @@ struct RenderArgs {
     std::vector<std::string> presets;  ///< one for render; "-" is the default material
     std::string output;
     SceneOptions scene;
-    std::string stats;  ///< file for the work ledger; empty: none is written
+    int turntable = 0;        ///< > 0: so many pictures of a whole turn, numbered
+    bool turn_light = false;  ///< the light goes round instead of the camera
+    bool up_to_date = false;  ///< leave a picture alone that this very command would make again
+    std::string stats;        ///< file for the work ledger; empty: none is written
 };
 struct ReportArgs {
     std::string comparison;  ///< file

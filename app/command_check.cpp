@@ -1,5 +1,6 @@
-// patina check: what is wrong with a preset, and where.
+// patina check: what is wrong with a preset or a comparison, and where.
 #include "app/commands.h"
+#include "app/comparison_file.h"
 #include "app/paths.h"
 #include "app/scene_loader.h"
 #include "materials/material_io.h"
@@ -20,6 +21,12 @@ bool check_preset(const std::string& preset, const Registry& registry) {
     };
     try {
         const std::filesystem::path file = find_preset(preset);
+        if (is_comparison_file(file)) {
+            for (const std::string& note : load_comparison(file).notes)
+                std::printf("%s: note: %s\n", preset.c_str(), note.c_str());
+            std::printf("%s: ok\n", preset.c_str());
+            return true;
+        }
         const LoadedMaterial loaded = load_material(file);
         for (const std::string& note : loaded.notes)
             std::printf("%s: note: %s\n", preset.c_str(), note.c_str());

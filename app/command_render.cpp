@@ -2,14 +2,20 @@
 #include "app/commands.h"
 #include "app/comparison_file.h"
 #include "app/comparison_sheet.h"
+#include "app/made_from.h"
 #include "app/paths.h"
 #include "app/sheet.h"
 #include "app/stats.h"
 #include "app/studio.h"
+#include "app/video.h"
+#include "renderer/core/angles.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace patina {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -17,17 +23,105 @@ bool wants_radiance(const std::string& output) { return path_from_utf8(output).e
 
 }  // namespace
 
-int run_render(const RenderArgs& args, const Registry& registry) {
-    const ImageExporter& exporter = image_exporter(registry, path_from_utf8(args.output));
+namespace {
+
+/// A video's frames lie in a folder of their own until ffmpeg has joined them.
+struct FrameFolder {
+    fs::path path;
+    explicit FrameFolder(const fs::path& video) : path(video) {
+        path += ".frames";
+        fs::create_directories(path);
+    }
+    ~FrameFolder() {
+        std::error_code ignored;
+        fs::remove_all(path, ignored);
+    }
+    FrameFolder(const FrameFolder&) = delete;
+    FrameFolder& operator=(const FrameFolder&) = delete;
+};
+
+SceneOptions turned(SceneOptions options, int frame, const RenderArgs& args) {
+    const float degrees = 360.0f * float(frame) / float(args.turntable);
+    float& angle = args.turn_light ? options.view.env_rotation_deg : options.camera.yaw_deg;
+    angle = wrap_degrees(angle + degrees);
+    return options;
+}
+
+/// The picture of these options, unless it is there already.
+struct Shot {
+    fs::path file;
+    SceneOptions scene;
+    std::string made_from;
+};
+std::vector<Shot> missing_shots(const RenderArgs& args, const fs::path& output) {
+    std::vector<Shot> shots;
+    const int frames = std::max(args.turntable, 1);
+    for (int frame = 0; frame < frames; ++frame) {
+        Shot shot{.file = output, .scene = args.scene};
+        if (args.turntable > 0) {
+            shot.file = frame_file(output, frame + 1, frames);
+            shot.scene = turned(args.scene, frame, args);
+        }
+        if (args.up_to_date) {
+            RenderArgs one = args;
+            one.scene = shot.scene;
+            shot.made_from = made_from(one);
+            if (is_up_to_date(shot.file, shot.made_from)) continue;
+        }
+        shots.push_back(std::move(shot));
+    }
+    return shots;
+}
+
+ImageMetadata described_with(const std::string& what, const std::string& made_from) {
+    ImageMetadata metadata = described(what);
+    if (!made_from.empty()) metadata.emplace_back(kMadeFromKey, made_from);
+    return metadata;
+}
+
+void render_shots(const RenderArgs& args, const Registry& registry, const fs::path& output) {
+    const ImageExporter& exporter = image_exporter(registry, output);
+    const std::vector<Shot> shots = missing_shots(args, output);
+    if (shots.empty()) return say(utf8_from_path(output) + " is up to date");
     Studio studio(registry, args.scene);
     Scene scene = studio.loader.scene(args.presets.front(), args.scene);
     scene.environment =
         studio.loader.environment(args.scene.environments.front(), studio.loader.needed_light(scene));
     const TargetHandle target = studio.renderer.make_target(args.scene.size_px);
-    const Image image = studio.picture(scene, *target, wants_radiance(args.output));
-    exporter.save(path_from_utf8(args.output), image,
-                  described(scene.material.name + " under " + args.scene.environments.front()));
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+        if (args.turntable > 0) studio.progress.show("drawing", float(i) / float(shots.size()));
+        scene.camera = shots[i].scene.camera;
+        scene.view = shots[i].scene.view;
+        const Image image = studio.picture(scene, *target, output.extension() == ".exr");
+        exporter.save(shots[i].file, image,
+                      described_with(scene.material.name + " under " + args.scene.environments.front(),
+                                     shots[i].made_from));
+    }
     write_stats(args.stats, studio.renderer.work());
+}
+
+void render_video(const RenderArgs& args, const Registry& registry) {
+    const fs::path video = path_from_utf8(args.output);
+    if (!has_ffmpeg())
+        throw std::runtime_error(args.output +
+                                 ": a video needs ffmpeg, which is not installed; write numbered pictures "
+                                 "instead (-o turn.png)");
+    const FrameFolder folder(video);
+    RenderArgs pictures = args;
+    pictures.up_to_date = false;
+    render_shots(pictures, registry, folder.path / "frame.png");
+    const std::size_t digits = std::max<std::size_t>(3, std::to_string(args.turntable).size());
+    join_frames(folder.path / ("frame-%0" + std::to_string(digits) + "d.png"), video);
+    say("wrote " + args.output);
+}
+
+}  // namespace
+
+int run_render(const RenderArgs& args, const Registry& registry) {
+    if (args.turntable > 0 && is_video(path_from_utf8(args.output)))
+        render_video(args, registry);
+    else
+        render_shots(args, registry, path_from_utf8(args.output));
     return 0;
 }
 
@@ -39,12 +133,17 @@ int compare_file(const RenderArgs& args, const Registry& registry) {
     LoadedComparison loaded = load_comparison(file);
     for (const std::string& note : loaded.notes) say(note);
     require_own_settings(args.scene, args.presets.front());
+    const std::string made = args.up_to_date ? made_from(args) : std::string{};
+    if (args.up_to_date && is_up_to_date(path_from_utf8(args.output), made)) {
+        say(args.output + " is up to date");
+        return 0;
+    }
     Studio studio(registry, args.scene);
     const Image sheet = draw_comparison_sheet(
         studio, registry, loaded.comparison,
         {.cell_px = args.scene.size_px, .radiance = wants_radiance(args.output), .scene = args.scene});
     studio.progress.clear();
-    exporter.save(path_from_utf8(args.output), sheet, described(loaded.comparison.title));
+    exporter.save(path_from_utf8(args.output), sheet, described_with(loaded.comparison.title, made));
     write_stats(args.stats, studio.renderer.work());
     say("wrote " + args.output);
     return 0;
@@ -57,6 +156,11 @@ int run_compare(const RenderArgs& args, const Registry& registry) {
         return compare_file(args, registry);
     const ImageExporter& exporter = image_exporter(registry, path_from_utf8(args.output));
     const bool radiance = wants_radiance(args.output);
+    const std::string made = args.up_to_date ? made_from(args) : std::string{};
+    if (args.up_to_date && is_up_to_date(path_from_utf8(args.output), made)) {
+        say(args.output + " is up to date");
+        return 0;
+    }
     Studio studio(registry, args.scene);
     Sheet sheet(int(args.scene.environments.size()), int(args.presets.size()), args.scene.size_px,
                 radiance ? PixelType::F32 : PixelType::U8);
@@ -75,7 +179,8 @@ int run_compare(const RenderArgs& args, const Registry& registry) {
         }
     }
     studio.progress.clear();
-    exporter.save(path_from_utf8(args.output), sheet.image(), described("Presets under several lightings"));
+    exporter.save(path_from_utf8(args.output), sheet.image(),
+                  described_with("Presets under several lightings", made));
     write_stats(args.stats, studio.renderer.work());
     say("wrote " + args.output);
     return 0;

@@ -180,6 +180,7 @@ LoadedComparison parse_comparison(std::string_view text, const std::string& name
     root.read_text("remarks", comparison.remarks);
     root.read_text("mesh", comparison.mesh);
     root.read_choice("shading", kShadings, comparison.shading);
+    root.read_choice("quality", kQualities, comparison.quality);
     if (auto camera = root.object("camera")) read_camera(std::move(*camera), comparison.camera);
     for (JsonObject& object : root.objects("rows", kMaxComparisonRows)) {
         ComparedPreset& row = comparison.rows.emplace_back();
@@ -219,6 +220,8 @@ std::string to_json(const Comparison& comparison) {
     if (!comparison.remarks.empty()) json["remarks"] = comparison.remarks;
     json["mesh"] = comparison.mesh;
     json["shading"] = named(kShadings, comparison.shading).id;
+    if (comparison.quality != Comparison{}.quality)
+        json["quality"] = named(kQualities, comparison.quality).id;
     json["camera"] = json_of(comparison.camera);
     json["rows"] = Json::array();
     for (const ComparedPreset& row : comparison.rows) {

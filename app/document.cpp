@@ -89,6 +89,9 @@ std::string describe_change(const Document& before, const Document& after) {
     if (a.quality != b.quality) changes.emplace_back("Quality");
     if (a.shading != b.shading) changes.emplace_back("Shading");
     if (a.debug != b.debug) changes.emplace_back("View mode");
+    if (before.sheet.has_value() != after.sheet.has_value()) changes.emplace_back("Comparison");
+    if (before.sheet && after.sheet && before.sheet != after.sheet)
+        changes.push_back(describe_comparison_change(*before.sheet, *after.sheet));
     if (changes.empty()) return before == after ? std::string{} : "View";
     if (changes.size() <= 2) return changes.size() == 1 ? changes[0] : changes[0] + ", " + changes[1];
     return std::to_string(changes.size()) + " values";

@@ -4,9 +4,11 @@
 
 #include "materials/material.h"
 #include "renderer/core/camera.h"
+#include "renderer/core/comparison.h"
 #include "renderer/core/view.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace patina {
@@ -19,6 +21,7 @@ struct Document {
     std::string mesh = "sphere";         ///< id of a built-in one, or a path
     std::string environment = "studio";  ///< likewise
     View view;
+    std::optional<Comparison> sheet;  ///< shown instead of the one view; has a file of its own
     bool operator==(const Document&) const = default;
 };
 

@@ -64,6 +64,17 @@ std::string log_text(const ui::Status& status) {
     return text;
 }
 
+/// Of the photo in the sheet's selected view.
+std::string photo_value(const DriveView& view, float Photo::*member) {
+    const auto& sheet = view.editor.document.sheet;
+    if (!sheet) return "none";
+    const std::vector<ViewPlace> places = places_of(*sheet);
+    const auto selected = std::size_t(view.editor.ui.sheet_selected);
+    if (selected >= places.size() || !lighting_at(*sheet, places[selected]).photo) return "none";
+    const Photo& photo = *lighting_at(*sheet, places[selected]).photo;
+    return text_of(photo.*member);
+}
+
 using Value = std::string (*)(const DriveView&);
 struct NamedValue {
     const char* key;
@@ -106,6 +117,29 @@ constexpr std::array kValues{
                [](const DriveView& v) { return std::string(v.editor.recovery_question ? "asked" : "no"); }},
     NamedValue{"undo", [](const DriveView& v) { return v.editor.status.undo_what; }},
     NamedValue{"redo", [](const DriveView& v) { return v.editor.status.redo_what; }},
+    NamedValue{"sheet_views",
+               [](const DriveView& v) {
+                   const auto& sheet = v.editor.document.sheet;
+                   return std::to_string(sheet ? places_of(*sheet).size() : 0);
+               }},
+    NamedValue{"sheet_selected",
+               [](const DriveView& v) { return std::to_string(v.editor.ui.sheet_selected + 1); }},
+    NamedValue{"photo_exposure", [](const DriveView& v) { return photo_value(v, &Photo::exposure_ev); }},
+    NamedValue{"photo_opacity", [](const DriveView& v) { return photo_value(v, &Photo::opacity); }},
+    NamedValue{"photo_delta_e",
+               [](const DriveView& v) {
+                   return text_of(
+                       v.editor.photos.views[std::size_t(v.editor.ui.sheet_selected)].residual.delta_e);
+               }},
+    NamedValue{"sheet_file", [](const DriveView& v) { return utf8_from_path(v.editor.sheet.file); }},
+    NamedValue{"sheet_rotations",
+               [](const DriveView& v) {
+                   std::string text;
+                   if (v.editor.document.sheet)
+                       for (const Lighting& light : v.editor.document.sheet->columns)
+                           text += (text.empty() ? "" : ",") + text_of(light.rotation_deg);
+                   return text;
+               }},
     NamedValue{"frames", [](const DriveView& v) { return std::to_string(v.frames); }},
     NamedValue{"views", [](const DriveView& v) { return std::to_string(v.views); }},
     NamedValue{"turns", [](const DriveView& v) { return std::to_string(v.turns); }},

@@ -75,7 +75,12 @@ private:
     bool needs_frame() const;
     void frame();
     void draw_view(glm::ivec2 size_px);
-    bool wants_refining() const { return has_drawn_ && shown_ != Pace::Good; }
+    void draw_sheet(const std::vector<ui::SheetSize>& seen);
+    void fill_sheet(ui::PanelContext& context) const;
+    bool sheet_is_stale() const;
+    Scene sheet_scene(std::size_t view, glm::ivec2 size_px) const;
+    bool update_reconciler();
+    bool wants_refining() const { return !editor_.document.sheet && has_drawn_ && shown_ != Pace::Good; }
     Sight sight() const;
     void measure_view(glm::ivec2 size_px, bool held);
     void fill_viewport(ui::Viewport& viewport) const;
@@ -97,6 +102,13 @@ private:
     ui::ItemRecorder items_;
     const Camera home_camera_;
 
+    /// A picture and what it was drawn from.
+    struct DrawnView {
+        TargetHandle target;
+        Drawn drawn;
+        bool has_drawn = false;
+        std::uint64_t times = 0;  ///< drawn so far
+    };
     AccuracyMeter meter_;
     TargetHandle target_;  ///< what is shown, one of targets_
     std::array<TargetHandle, kPaces> targets_;
@@ -107,6 +119,8 @@ private:
     std::optional<double> drew_s_;  ///< when this frame's picture was begun
     Drawn drawn_;
     bool has_drawn_ = false;
+    std::vector<DrawnView> sheet_views_;  ///< by the sheet's views
+    std::vector<int> sheet_seen_;         ///< those that the last frame showed
     std::uint64_t views_ = 0, turns_ = 0;
     double turn_ms_ = 0.0;  ///< main-thread work of the last turn
     int frames_wanted_ = kFramesAfterEvent;
@@ -174,14 +188,24 @@ void Loop::take_events() {
 bool Loop::idle() const {
     return frames_wanted_ == 0 && !animating_ && !more_uploads_ && jobs_.running().empty() &&
            !editor_.reconciler.pending() && !editor_.thumbnails.busy() &&
-           !jobs_.is_running(editor_.autosave_job) && !drop_ && !wants_refining();
+           !jobs_.is_running(editor_.autosave_job) && !drop_ && !wants_refining() && !editor_.sheet.report;
+}
+
+bool Loop::update_reconciler() {
+    std::vector<WantedPicture> further = wanted_pictures(editor_);
+    int height_px = 1;
+    for (const DrawnView& view : sheet_views_)
+        if (view.target) height_px = std::max(height_px, Renderer::size_px(*view.target).y);
+    for (WantedPicture& picture : further) picture.sight = {editor_.camera, height_px};
+    return editor_.reconciler.update(editor_.document, editor_.opened, sight(), further);
 }
 
 /// Everything that goes on without the interface.
 void Loop::think() {
     jobs_.poll();
     const double now_s = window_.time_s();
-    more_uploads_ = editor_.reconciler.update(editor_.document, editor_.opened, sight());
+    more_uploads_ = update_reconciler();
+    step_report(editor_);
     const bool calm = jobs_.running().empty() && !editor_.reconciler.pending() && !editor_.ui.viewport_drag;
     editor_.thumbnails.step(calm);
     watch_files(editor_, now_s);
@@ -197,13 +221,82 @@ Sight Loop::sight() const {
 
 bool Loop::needs_frame() const {
     if (window_.minimized()) return false;
-    return frames_wanted_ > 0 || animating_ || meter_.busy() || editor_.changes != changes_shown_ ||
-           editor_.thumbnails.version() != thumbnails_shown_ || jobs_.running() != jobs_shown_ ||
-           editor_.reconciler.pending() != pending_shown_ ||
+    return frames_wanted_ > 0 || animating_ || (!editor_.document.sheet && meter_.busy()) ||
+           editor_.changes != changes_shown_ || editor_.thumbnails.version() != thumbnails_shown_ ||
+           jobs_.running() != jobs_shown_ || editor_.reconciler.pending() != pending_shown_ ||
            (window_.wants_text() && window_.time_s() - last_frame_s_ >= kCaretSeconds) ||
            (wants_refining() && window_.time_s() - changed_s_ >= kStillSeconds) ||
-           (editor_.reconciler.drawable() &&
-            !(signature_of(editor_.reconciler.scene(editor_.camera, editor_.document.view)) == drawn_));
+           (editor_.document.sheet
+                ? sheet_is_stale()
+                : editor_.reconciler.drawable() && !(signature_of(editor_.reconciler.scene(
+                                                         editor_.camera, editor_.document.view)) == drawn_));
+}
+
+Scene Loop::sheet_scene(std::size_t view, glm::ivec2 size_px) const {
+    const Camera camera = fitted_to(editor_.camera, float(size_px.x) / float(size_px.y));
+    return editor_.reconciler.scene_of(view, camera, view_of_sheet(editor_, view));
+}
+
+bool Loop::sheet_is_stale() const {
+    const std::size_t views = places_of(*editor_.document.sheet).size();
+    return std::ranges::any_of(sheet_seen_, [&](int seen) {
+        const auto view = std::size_t(seen);
+        if (view >= views || view >= sheet_views_.size() || !editor_.reconciler.drawable(view)) return false;
+        if (!sheet_views_[view].has_drawn) return true;
+        const Scene scene = sheet_scene(view, Renderer::size_px(*sheet_views_[view].target));
+        return !(signature_of(scene) == sheet_views_[view].drawn);
+    });
+}
+
+/// Only the views that are seen and changed.
+void Loop::draw_sheet(const std::vector<ui::SheetSize>& seen) {
+    sheet_seen_.clear();
+    if (!editor_.document.sheet) return sheet_views_.clear();
+    const std::size_t views = std::min(places_of(*editor_.document.sheet).size(), kMaxFurtherPictures);
+    sheet_views_.resize(views);
+    for (const ui::SheetSize& each : seen) {
+        const auto view = std::size_t(each.view);
+        if (view >= views) continue;
+        sheet_seen_.push_back(each.view);
+        if (!editor_.reconciler.drawable(view)) continue;
+        DrawnView& shown = sheet_views_[view];
+        const Scene scene = sheet_scene(view, each.size_px);
+        Drawn wanted = signature_of(scene);
+        const bool resized = !shown.target || Renderer::size_px(*shown.target) != each.size_px;
+        if (!resized && shown.has_drawn && wanted == shown.drawn) continue;
+        if (resized) {
+            shown.target = renderer_.make_target(each.size_px);
+            frames_wanted_ = std::max(frames_wanted_, 1);  // this frame still shows the old one
+        }
+        renderer_.draw(scene, *shown.target);
+        shown.drawn = std::move(wanted);
+        shown.has_drawn = true;
+        ++shown.times;
+        ++views_;
+    }
+}
+
+void Loop::fill_sheet(ui::PanelContext& context) const {
+    if (!editor_.document.sheet) return;
+    const Comparison& sheet = *editor_.document.sheet;
+    const std::vector<ViewPlace> places = places_of(sheet);
+    for (std::size_t view = 0; view < std::min(places.size(), kMaxFurtherPictures); ++view) {
+        const ComparedPreset& preset = preset_at(sheet, places[view]);
+        const auto read = editor_.sheet.presets.find(preset.preset);
+        ui::SheetCell cell{.light = lighting_title(editor_.registry, lighting_at(sheet, places[view]))};
+        if (preset.preset == kEditedPreset)
+            cell.preset = preset_title(preset, editor_.document.material) + " (edited)";
+        else if (read != editor_.sheet.presets.end())
+            cell.preset = preset_title(preset, read->second.material);
+        cell.error = read != editor_.sheet.presets.end() ? read->second.error : "";
+        if (cell.error.empty()) cell.error = editor_.reconciler.error_of(view);
+        if (view < sheet_views_.size() && sheet_views_[view].has_drawn)
+            cell.texture = Renderer::display_texture(*sheet_views_[view].target);
+        fill_photo(editor_, view, cell);
+        context.sheet_cells.push_back(std::move(cell));
+    }
+    context.sheet_file = path_to_utf8(editor_.sheet.file);
+    context.sheet_unsaved = sheet_unsaved(editor_);
 }
 
 void Loop::draw_view(glm::ivec2 size_px) {
@@ -297,11 +390,13 @@ void Loop::frame() {
     fill_status();
     fill_thumbnails();
 
+    const ViewBinding bound = bind_view(editor_);
+    ViewBinding edited = bound;
     ui::PanelContext context{.material = editor_.document.material,
-                             .view = editor_.document.view,
+                             .view = edited.view,
                              .camera = editor_.camera,
-                             .mesh = editor_.document.mesh,
-                             .environment = editor_.document.environment,
+                             .mesh = edited.mesh,
+                             .environment = edited.environment,
                              .ui = editor_.ui,
                              .browser = editor_.browser,
                              .import_sheet = editor_.import_sheet,
@@ -314,6 +409,8 @@ void Loop::frame() {
                              .mesh_info = editor_.reconciler.mesh_info(),
                              .environment_info = editor_.reconciler.environment_info(),
                              .panels = editor_.registry.panels};
+    context.sheet = editor_.document.sheet ? &*editor_.document.sheet : nullptr;
+    fill_sheet(context);
     fill_viewport(context.viewport);
     context.work = &renderer_.work();
     context.unsaved = editor_.unsaved ? &*editor_.unsaved : nullptr;
@@ -323,10 +420,12 @@ void Loop::frame() {
     context.scale = window_.interface_scale();
     context.recorder = &items_;
 
-    const TargetHandle shown = target_;  // keeps its texture alive until the interface is drawn
+    const TargetHandle shown = target_;  // keep their textures alive until the interface is drawn
+    const std::vector<DrawnView> shown_sheet = sheet_views_;
     items_.items.clear();
     window_.begin_frame();
     ui::draw_workspace(context);
+    take_binding(editor_, bound, edited, context.result.turn_all_lights);
     after_frame(context);
     const std::optional<fs::path> screenshot = drive_ ? drive_->take_screenshot() : std::nullopt;
     Image picture;
@@ -340,10 +439,16 @@ void Loop::frame() {
 void Loop::after_frame(const ui::PanelContext& context) {
     carry_out(editor_, context.requests);
     settle(editor_, context.result.item_active || context.result.viewport_active);
-    editor_.reconciler.update(editor_.document, editor_.opened, sight());
+    update_reconciler();
     draw_view(context.result.viewport_size_px);
     measure_view(context.result.viewport_size_px,
                  context.result.item_active || context.result.viewport_active);
+    draw_sheet(context.result.sheet);
+    for (const int seen : sheet_seen_) {
+        const DrawnView& shown = sheet_views_[std::size_t(seen)];
+        update_photo(editor_,
+                     {std::size_t(seen), shown.has_drawn ? shown.target.get() : nullptr, shown.times});
+    }
     animating_ = context.result.wants_redraw;
     if (editor_.clipboard) window_.set_clipboard(*std::exchange(editor_.clipboard, std::nullopt));
 }
@@ -361,7 +466,7 @@ void Loop::drive() {
 }
 
 double Loop::sleep_s() const {
-    if (more_uploads_ || (drive_ && drive_->busy())) return 0.0;
+    if (more_uploads_ || editor_.sheet.report || (drive_ && drive_->busy())) return 0.0;
     if (needs_frame()) return 0.0;
     double wait = next_errand_s(editor_, window_.time_s());
     if (window_.wants_text()) wait = std::min(wait, kCaretSeconds);
@@ -414,12 +519,14 @@ int Loop::run() {
         ...) {  // the driver gave up, memory is used up: what the artist did is offered at the next start
         jobs_.end();
         if (is_dirty(editor_.document, editor_.file)) keep_now(editor_);
+        keep_sheet(editor_);
         throw;
     }
     jobs_.end();
     editor_.recovery.remove();
     try {
         remember_window();
+        keep_sheet(editor_);
         write_stats(args_.stats, renderer_.work(), first_lit_frame_);
     } catch (const std::exception& error) {  // closing must not fail for what is only kept
         log_line(editor_, ui::Severity::Warning, error.what());

@@ -69,6 +69,11 @@ void list_folder(Editor& editor, const std::string& folder) {
         browser.file_name = file_name_from(document_title(editor.document, editor.file)) + ".json";
     if (browser.file_name.empty() && browser.purpose == ui::BrowserPurpose::ExportRender)
         browser.file_name = file_name_from(document_title(editor.document, editor.file)) + ".png";
+    const std::string sheet_title = editor.document.sheet ? editor.document.sheet->title : "";
+    if (browser.file_name.empty() && browser.purpose == ui::BrowserPurpose::SaveComparison)
+        browser.file_name = (sheet_title.empty() ? "comparison" : file_name_from(sheet_title)) + ".json";
+    if (browser.file_name.empty() && browser.purpose == ui::BrowserPurpose::ExportReport)
+        browser.file_name = (sheet_title.empty() ? "report" : file_name_from(sheet_title)) + ".pdf";
     if (listing.error.empty()) editor.settings.last_folder = listing.folder;
     ++editor.changes;
 }

@@ -1,3 +1,4 @@
+#include "app/comparison_file.h"
 #include "app/editor_state.h"
 #include "app/paths.h"
 #include "app/reconcile_load.h"
@@ -64,6 +65,8 @@ DocumentFile read_document(Editor& editor, const fs::path& file) {
 
 void ask_new(Editor& editor) { ask(editor, ui::request::New{}, "start a new material"); }
 void ask_open(Editor& editor, const std::string& file) {
+    if (is_comparison_file(utf8_to_path(file))) return open_sheet(editor, file);
+    if (set_sheet_preset(editor, file)) return;
     ask(editor, ui::request::Open{file}, "open " + utf8_from_path(utf8_to_path(file).stem()));
 }
 void ask_quit(Editor& editor) { ask(editor, ui::request::Quit{}, "close Patina"); }
@@ -128,6 +131,7 @@ bool save_file(Editor& editor, const fs::path& chosen) {
         editor.watch.saw(path_to_utf8(file), stamp_of(file));
         remember(editor.settings.recent, path_to_utf8(file));
         editor.thumbnails.forget(Thumbnails::Kind::Preset, path_to_utf8(file));
+        editor.sheet.presets.erase(path_to_utf8(file));
         log_line(editor, ui::Severity::Info, "Saved " + utf8_from_path(file.filename()) + ".");
         fill_catalog(editor);
     } catch (const std::exception& error) {

@@ -221,13 +221,13 @@ void locate_map(Editor& editor, MapSlot slot, const std::string& file) {
 }
 
 void use_environment(Editor& editor, const std::string& file) {
-    editor.document.environment = file;
+    set_light(editor, file);
     remember(editor.settings.opened_environments, file);
     fill_catalog(editor);
 }
 
 void use_mesh(Editor& editor, const std::string& file) {
-    editor.document.mesh = file;
+    set_mesh(editor, file);
     remember(editor.settings.opened_meshes, file);
     fill_catalog(editor);
 }

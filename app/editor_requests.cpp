@@ -5,6 +5,8 @@
 #include "materials/params.h"
 #include "materials/text_io.h"
 
+#include <algorithm>
+
 namespace patina {
 
 namespace {
@@ -30,6 +32,55 @@ void clear_map(Editor& editor, MapSlot slot) { map_of(editor.document.material, 
 void cancel_job(Editor& editor, Jobs::Id job) {
     if (!editor.reconciler.cancel(job)) editor.jobs.stop(job);
     log_line(editor, ui::Severity::Info, "Cancelled.");
+}
+
+void change_sheet(Editor& editor, const ask_for::ChangeSheet& asked) {
+    if (!editor.document.sheet) return;
+    Comparison& sheet = *editor.document.sheet;
+    const std::vector<ViewPlace> places = places_of(sheet);
+    if (std::size_t(asked.view) >= places.size()) return;
+    const ViewPlace place = places[std::size_t(asked.view)];
+    std::optional<ViewPlace> next;  // what is selected then
+    switch (asked.change) {
+        using enum ask_for::SheetChange;
+        case AddLight: {
+            Lighting light = lighting_at(sheet, place);
+            light.photo.reset();
+            sheet = with_column_after(std::move(sheet), place.column, light);
+            next = ViewPlace{.row = std::max(place.row, 0), .column = place.column + 1};
+            say_status(editor, "Choose a light for the new column in the library.");
+            break;
+        }
+        case AddPreset:
+            sheet = with_row_after(std::move(sheet), place.row, {.preset = "-"});
+            next = ViewPlace{.row = place.row + 1, .column = std::max(place.column, 0)};
+            editor.ui.left_tab = "presets";
+            say_status(editor, "Choose a preset for the new row in the library.");
+            break;
+        case Duplicate:
+            sheet = with_duplicate(std::move(sheet), place);
+            next = ViewPlace{.free = place.free >= 0 ? place.free + 1 : int(sheet.views.size()) - 1};
+            break;
+        case Remove:
+            sheet = without(std::move(sheet), place);
+            break;
+        case ShowEdited:
+            preset_at(sheet, place) = {};
+            break;
+        case RemovePhoto:
+            lighting_at(sheet, place).photo.reset();
+            break;
+    }
+    const std::vector<ViewPlace> now = places_of(sheet);
+    const auto found = next ? std::find(now.begin(), now.end(), *next) : now.end();
+    if (found != now.end()) editor.ui.sheet_selected = int(found - now.begin());
+}
+
+void set_photo(Editor& editor, const std::string& file) {
+    if (!editor.document.sheet) return;
+    const std::vector<ViewPlace> places = places_of(*editor.document.sheet);
+    const auto view = std::size_t(std::max(editor.ui.sheet_selected, 0));
+    if (view < places.size()) lighting_at(*editor.document.sheet, places[view]).photo = Photo{.file = file};
 }
 
 void save_as(Editor& editor, const std::string& file) {
@@ -79,6 +130,14 @@ void carry_out(Editor& editor, const ui::Requests& requests) {
         [&](const ask_for::LoadEnvironment& r) { use_environment(editor, r.file); },
         [&](const ask_for::LoadMesh& r) { use_mesh(editor, r.file); },
         [&](const ask_for::ExportRender& r) { export_picture(editor, r); },
+        [&](const ask_for::ShowSheet& r) { show_sheet(editor, r.shown); },
+        [&](const ask_for::ChangeSheet& r) { change_sheet(editor, r); },
+        [&](const ask_for::OpenSheet& r) { open_sheet(editor, r.file); },
+        [&](const ask_for::SaveSheet&) { save_sheet(editor); },
+        [&](const ask_for::SaveSheetAs& r) { save_sheet_as(editor, r.file); },
+        [&](const ask_for::SetPhoto& r) { set_photo(editor, r.file); },
+        [&](const ask_for::PickCard& r) { pick_card(editor, r); },
+        [&](const ask_for::ExportReport& r) { export_report(editor, r.file); },
         [&](const ask_for::CancelJob& r) { cancel_job(editor, r.id); },
         [&](const ask_for::ClearLog&) { editor.status.log.clear(); },
         [&](const ask_for::ClearWork&) { editor.renderer.work() = {}; },

@@ -4,6 +4,8 @@
 
 #include "app/autosave.h"
 #include "app/document.h"
+#include "app/editor_photo.h"
+#include "app/editor_sheet.h"
 #include "app/jobs.h"
 #include "app/reconcile.h"
 #include "app/registry.h"
@@ -45,6 +47,8 @@ struct Editor {
     std::uint64_t opened = 0;  ///< documents so far
     Reconciler reconciler;
     Thumbnails thumbnails;
+    EditorSheet sheet;
+    EditorPhotos photos;
 
     // The interface's side.
     ui::UiState ui;

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <deque>
 #include <map>
+#include <span>
 #include <utility>
 
 namespace patina {
@@ -65,27 +66,34 @@ struct Reconciler::State {
     ReconcileCounts counts;
     std::map<std::string, LightOrder> light_orders;  ///< of what is wanted, by key
     std::map<std::string, MapRequest> map_requests;  ///< likewise
-    Sight sight;
 
-    // The picture: what was complete last.
-    Material material;
-    std::array<MapHandle, kMapSlots> handles;
-    MapRanges ranges;  ///< of handles
-    std::uint64_t opened = 0;
-    bool presented = false;
+    /// What was complete last, and which documents' it was.
+    struct Picture {
+        Material material;
+        std::array<MapHandle, kMapSlots> handles;
+        MapRanges ranges;  ///< of handles
+        std::uint64_t opened = 0;
+        bool presented = false;
+    };
+    std::vector<Picture> pictures{1 + kMaxFurtherPictures};  ///< the document's first
     std::array<ui::MapStatus, kMapSlots> status;
     ui::MeshInfo no_mesh;
     ui::EnvironmentInfo no_environment;
 
+    static std::size_t map_slot(std::size_t picture, int slot) {
+        return picture * std::size_t(kMapSlots) + std::size_t(slot);
+    }
     std::string versioned(const std::string& id) const {
         const auto found = versions.find(id);
         return id + kVersionMark + std::to_string(found == versions.end() ? 0 : found->second);
     }
-    void want(const Document& document);
-    std::string want_map(MapRequest request, const Material& wanted);
-    int visible_side(const Material& wanted, const Sight& seen) const;
-    bool has_map(int slot) const;
-    std::optional<NeededLight> needed_by(const Document& document) const;
+    void want(std::size_t picture, const WantedPicture& wanted);
+    void want_light(std::span<const WantedPicture* const> wanted);
+    void want_nothing(std::size_t picture);
+    std::string want_map(MapRequest request, int finest_side);
+    int visible_side(std::size_t picture, const Material& wanted, const Sight& seen) const;
+    bool has_map(std::size_t slot) const;
+    std::optional<NeededLight> needed_by(std::size_t picture, const WantedPicture& wanted) const;
     std::string light_key(const std::string& environment, const std::optional<NeededLight>& needed);
     void start_missing();
     Jobs::Id start_map(const std::string& key, const MapRequest& request);
@@ -103,11 +111,13 @@ struct Reconciler::State {
     std::function<void(const std::string&)> when_failed(Supply<T>& supply, const std::string& key,
                                                         const std::shared_ptr<FileStamp>& stamp);
     void note(const std::string& id, const std::vector<std::string>& notes) const;
-    bool slot_ready(const Document& document, int slot) const;
-    bool light_ready() const;
-    std::optional<ChannelRanges> ranges_of(int slot) const;
-    MapHandle handle_for(const Document& document, int slot) const;
-    void present(const Document& document, std::uint64_t opened_now);
+    bool slot_ready(std::size_t picture, const Material& material, int slot) const;
+    bool light_ready(std::size_t picture) const;
+    std::optional<ChannelRanges> ranges_of(std::size_t picture, int slot) const;
+    MapHandle handle_for(std::size_t picture, const Material& material, int slot) const;
+    void present(std::size_t picture, const Material& material, std::uint64_t opened_now);
+    Scene scene(std::size_t picture, const Camera& camera, const View& view) const;
+    bool drawable(std::size_t picture) const;
     void report(const Document& document);
     bool run_uploads();
 };
@@ -128,28 +138,34 @@ std::string map_key(const std::string& versioned_file, const MapRequest& request
 }
 }  // namespace
 
-void Reconciler::State::want(const Document& document) {
-    map_requests.clear();
+void Reconciler::State::want(std::size_t picture, const WantedPicture& wanted) {
+    const int finest_side = visible_side(picture, wanted.material, wanted.sight);
     for (int i = 0; i < kMapSlots; ++i) {
-        const MapRequest request = map_request(document.material, MapSlot(i));
-        maps.want(i, request.file.empty() ? std::string{} : want_map(request, document.material));
+        const MapRequest request = map_request(wanted.material, MapSlot(i));
+        maps.want(map_slot(picture, i),
+                  request.file.empty() ? std::string{} : want_map(request, finest_side));
     }
-    const bool tangents = !document.material.normal.map.empty();
-    meshes.want(0, versioned(document.mesh) + (tangents || !options.skip ? " t" : ""));
-    light_orders.clear();
-    environments.want(0, light_key(document.environment, needed_by(document)));
+    const bool tangents = !wanted.material.normal.map.empty();
+    meshes.want(picture, versioned(wanted.mesh) + (tangents || !options.skip ? " t" : ""));
+}
+
+void Reconciler::State::want_nothing(std::size_t picture) {
+    for (int i = 0; i < kMapSlots; ++i) maps.want(map_slot(picture, i), {});
+    meshes.want(picture, {});
+    environments.want(picture, {});
+    pictures[picture] = {};
 }
 
 /// Of a material's maps on the mesh that is shown.
-int Reconciler::State::visible_side(const Material& wanted, const Sight& seen) const {
-    const auto& mesh = meshes.slot(0).value;
+int Reconciler::State::visible_side(std::size_t picture, const Material& wanted, const Sight& seen) const {
+    const auto& mesh = meshes.slot(picture).value;
     return visible_map_side(mesh ? mesh->uv_stretch : kUsualUvStretch, wanted.uv.scale,
                             options.skip ? seen : Sight{});
 }
 
 /// The key of what is there if it is fine enough.
-std::string Reconciler::State::want_map(MapRequest request, const Material& wanted) {
-    request.finest_side = visible_side(wanted, sight);
+std::string Reconciler::State::want_map(MapRequest request, int finest_side) {
+    request.finest_side = finest_side;
     const std::string map = map_key(versioned(request.file), request);
     std::string at_hand;
     maps.visit([&](const std::string& key, const HeldMap& held) {
@@ -163,29 +179,47 @@ std::string Reconciler::State::want_map(MapRequest request, const Material& want
 }
 
 /// The wanted map is shown, if perhaps not yet in the detail wanted.
-bool Reconciler::State::has_map(int slot) const {
+bool Reconciler::State::has_map(std::size_t slot) const {
     const auto& [keys, value, error] = maps.slot(slot);
     return value && !keys.wanted.empty() && map_of_key(keys.shown) == map_of_key(keys.wanted);
 }
 
 /// Not known before the maps are there that tell it.
-std::optional<NeededLight> Reconciler::State::needed_by(const Document& document) const {
+std::optional<NeededLight> Reconciler::State::needed_by(std::size_t picture,
+                                                        const WantedPicture& wanted) const {
     if (!options.skip) return all_light();
     MapRanges known;
     for (const MapSlot slot : {MapSlot::Roughness, MapSlot::Metallic, MapSlot::Normal}) {
-        const auto& [keys, value, error] = maps.slot(std::size_t(slot));
+        const std::size_t at = map_slot(picture, int(slot));
+        const auto& [keys, value, error] = maps.slot(at);
         if (keys.wanted.empty()) continue;
-        if (!keys.ready() && !has_map(int(slot))) return std::nullopt;
-        known[std::size_t(slot)] = has_map(int(slot)) ? value->ranges : ChannelRanges{};
+        if (!keys.ready() && !has_map(at)) return std::nullopt;
+        known[std::size_t(slot)] = has_map(at) ? value->ranges : ChannelRanges{};
     }
-    return needed_light(document.material, known, document.view);
+    return needed_light(wanted.material, known, wanted.view);
+}
+
+/// Pictures under one environment want one light, which has what any of them looks up.
+void Reconciler::State::want_light(std::span<const WantedPicture* const> wanted) {
+    std::map<std::string, std::optional<NeededLight>> needed;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        std::optional<NeededLight>& all = needed[wanted[i]->environment];
+        const std::optional<NeededLight> own = needed_by(i, *wanted[i]);
+        if (own) all = all ? combined(*all, *own) : own;
+    }
+    light_orders.clear();
+    std::map<std::string, std::string> keys;
+    for (const auto& [environment, all] : needed) keys[environment] = light_key(environment, all);
+    for (std::size_t i = 0; i < wanted.size(); ++i) environments.want(i, keys[wanted[i]->environment]);
 }
 
 std::string Reconciler::State::light_key(const std::string& environment,
                                          const std::optional<NeededLight>& needed) {
     const std::string base = versioned(environment);
-    const std::string& loading = environments.slot(0).keys.loading;
-    if (base_of(loading) == base) return loading;  // what a slider passed meanwhile is found when it is there
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        const std::string& loading = environments.slot(i).keys.loading;
+        if (base_of(loading) == base) return loading;  // what a slider passed is found when it is there
+    }
     std::vector<LightAtHand> at_hand;
     environments.visit([&](const std::string& key, const HeldEnvironment& held) {
         if (base_of(key) == base) at_hand.push_back({key, held.light, held.handle});
@@ -400,52 +434,76 @@ void Reconciler::State::start_missing() {
     work.maps_from_memory += std::uint64_t(counts.maps_from_memory - before.maps_from_memory);
 }
 
-bool Reconciler::State::slot_ready(const Document& document, int slot) const {
-    if (!maps.slot(slot).keys.ready() && !has_map(slot)) return false;
+bool Reconciler::State::slot_ready(std::size_t picture, const Material& material, int slot) const {
+    const std::size_t at = map_slot(picture, slot);
+    if (!maps.slot(at).keys.ready() && !has_map(at)) return false;
     // A normal map is shaded along tangents: it waits for a mesh that has them.
-    const bool needs_tangents = MapSlot(slot) == MapSlot::Normal && !document.material.normal.map.empty();
-    return !needs_tangents || meshes.slot(0).keys.ready() || wants_tangents(meshes.slot(0).keys.shown);
+    const bool needs_tangents = MapSlot(slot) == MapSlot::Normal && !material.normal.map.empty();
+    const SlotKeys& mesh = meshes.slot(picture).keys;
+    return !needs_tangents || mesh.ready() || wants_tangents(mesh.shown);
 }
 
 /// Unless levels are being added to what is shown; other light takes longer, and the picture does not wait.
-bool Reconciler::State::light_ready() const {
-    const SlotKeys& keys = environments.slot(0).keys;
+bool Reconciler::State::light_ready(std::size_t picture) const {
+    const SlotKeys& keys = environments.slot(picture).keys;
     return keys.ready() || base_of(keys.wanted) != base_of(keys.shown);
 }
 
 /// The wanted map; the last good one of the same file while that is broken; else the placeholder.
-MapHandle Reconciler::State::handle_for(const Document& document, int slot) const {
-    const auto& [keys, value, error] = maps.slot(slot);
+MapHandle Reconciler::State::handle_for(std::size_t picture, const Material& material, int slot) const {
+    const auto& [keys, value, error] = maps.slot(map_slot(picture, slot));
     if (keys.wanted.empty()) return {};
-    if (has_map(slot)) return value->handle;
-    const bool same_file = value && id_of(keys.shown) == *map_of(document.material, MapSlot(slot)).map;
+    if (has_map(map_slot(picture, slot))) return value->handle;
+    const bool same_file = value && id_of(keys.shown) == *map_of(material, MapSlot(slot)).map;
     return same_file ? value->handle : placeholder;
 }
 
 /// Of the handle above.
-std::optional<ChannelRanges> Reconciler::State::ranges_of(int slot) const {
-    const auto& [keys, value, error] = maps.slot(slot);
-    if (!handles[slot]) return std::nullopt;
-    return value && value->handle == handles[slot] ? value->ranges : ChannelRanges{};
+std::optional<ChannelRanges> Reconciler::State::ranges_of(std::size_t picture, int slot) const {
+    const auto& [keys, value, error] = maps.slot(map_slot(picture, slot));
+    const MapHandle& handle = pictures[picture].handles[slot];
+    if (!handle) return std::nullopt;
+    return value && value->handle == handle ? value->ranges : ChannelRanges{};
 }
 
-void Reconciler::State::present(const Document& document, std::uint64_t opened_now) {
+void Reconciler::State::present(std::size_t index, const Material& wanted, std::uint64_t opened_now) {
+    Picture& picture = pictures[index];
     std::array<bool, kMapSlots> ready;
-    for (int i = 0; i < kMapSlots; ++i) ready[i] = slot_ready(document, i);
-    const bool all = light_ready() && std::all_of(ready.begin(), ready.end(), [](bool each) { return each; });
-    if (!all && presented && opened_now != opened) return;  // another document: all of it or nothing
-    Material next = document.material;
+    for (int i = 0; i < kMapSlots; ++i) ready[i] = slot_ready(index, wanted, i);
+    const bool all =
+        light_ready(index) && std::all_of(ready.begin(), ready.end(), [](bool each) { return each; });
+    if (!all && picture.presented && opened_now != picture.opened)
+        return;  // another document: all or nothing
+    Material next = wanted;
     for (int i = 0; i < kMapSlots; ++i) {
         if (ready[i]) {
-            handles[i] = handle_for(document, i);
-            ranges[i] = ranges_of(i);
+            picture.handles[i] = handle_for(index, wanted, i);
+            picture.ranges[i] = ranges_of(index, i);
         } else {
-            copy_slot(material, next, MapSlot(i));
+            copy_slot(picture.material, next, MapSlot(i));
         }
     }
-    material = std::move(next);
-    presented = true;
-    opened = opened_now;
+    picture.material = std::move(next);
+    picture.presented = true;
+    picture.opened = opened_now;
+}
+
+Scene Reconciler::State::scene(std::size_t index, const Camera& camera, const View& view) const {
+    const Picture& picture = pictures[index];
+    Scene scene{.maps = picture.handles, .material = picture.material, .camera = camera, .view = view};
+    if (options.skip) {
+        const Collapsed simpler = collapsed(picture.material, picture.ranges);
+        scene.material = simpler.material;
+        for (int i = 0; i < kMapSlots; ++i)
+            if (simpler.slots[i]) scene.maps[i] = nullptr;
+    }
+    if (const auto& light = environments.slot(index).value) scene.environment = light->handle;
+    if (const auto& mesh = meshes.slot(index).value) scene.mesh = mesh->handle;
+    return scene;
+}
+
+bool Reconciler::State::drawable(std::size_t picture) const {
+    return environments.slot(picture).value && meshes.slot(picture).value && pictures[picture].presented;
 }
 
 void Reconciler::State::report(const Document& document) {
@@ -456,7 +514,7 @@ void Reconciler::State::report(const Document& document) {
             status[i] = {};
             continue;
         }
-        const bool loaded = has_map(i);
+        const bool loaded = has_map(std::size_t(i));
         if (loaded) next = value->status;
         next.full_path = *map_of(document.material, MapSlot(i)).map;
         if (loaded) {
@@ -487,9 +545,9 @@ Reconciler::Reconciler(Renderer& renderer, const Registry& registry, Jobs& jobs,
                        .registry = registry,
                        .jobs = jobs,
                        .options = options,
-                       .maps = {kMapSlots, options.map_bytes},
-                       .meshes = {1, options.mesh_bytes},
-                       .environments = {1, options.environment_bytes}}) {
+                       .maps = {kMapSlots * (1 + kMaxFurtherPictures), options.map_bytes},
+                       .meshes = {1 + kMaxFurtherPictures, options.mesh_bytes},
+                       .environments = {1 + kMaxFurtherPictures, options.environment_bytes}}) {
     const Image picture = make_placeholder_map();
     state_->placeholder = renderer.upload_map(make_map_levels(picture, MapKind::Color, ColorSpace::Srgb));
     state_->placeholder_thumbnail = renderer.upload_thumbnail(picture);
@@ -497,33 +555,35 @@ Reconciler::Reconciler(Renderer& renderer, const Registry& registry, Jobs& jobs,
 
 Reconciler::~Reconciler() = default;
 
-bool Reconciler::update(const Document& document, std::uint64_t opened, const Sight& sight) {
-    state_->sight = sight;
+bool Reconciler::update(const Document& document, std::uint64_t opened, const Sight& sight,
+                        std::span<const WantedPicture> further) {
     const bool more = state_->run_uploads();
-    state_->want(document);
+    const std::size_t count = std::min(further.size(), kMaxFurtherPictures);
+    const WantedPicture own{document.material, document.mesh, document.environment, document.view, sight};
+    std::vector<const WantedPicture*> wanted{&own};
+    for (std::size_t i = 0; i < count; ++i) wanted.push_back(&further[i]);
+    state_->map_requests.clear();
+    for (std::size_t i = 0; i < 1 + kMaxFurtherPictures; ++i)
+        i < wanted.size() ? state_->want(i, *wanted[i]) : state_->want_nothing(i);
+    state_->want_light(wanted);
     state_->start_missing();
-    state_->present(document, opened);
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        state_->present(i, wanted[i]->material, i == 0 ? opened : 0);
     state_->report(document);
     return more;
 }
 
 Scene Reconciler::scene(const Camera& camera, const View& view) const {
-    Scene scene{.maps = state_->handles, .material = state_->material, .camera = camera, .view = view};
-    if (state_->options.skip) {
-        const Collapsed simpler = collapsed(state_->material, state_->ranges);
-        scene.material = simpler.material;
-        for (int i = 0; i < kMapSlots; ++i)
-            if (simpler.slots[i]) scene.maps[i] = nullptr;
-    }
-    if (const auto& light = state_->environments.slot(0).value) scene.environment = light->handle;
-    if (const auto& mesh = state_->meshes.slot(0).value) scene.mesh = mesh->handle;
-    return scene;
+    return state_->scene(0, camera, view);
+}
+Scene Reconciler::scene_of(std::size_t further, const Camera& camera, const View& view) const {
+    return state_->scene(1 + further, camera, view);
 }
 
 Scene Reconciler::detailed_scene(const Camera& camera, const View& view, int height_px) const {
     Scene detailed = scene(camera, view);
-    const Material& material = state_->material;
-    const int side = state_->visible_side(material, {camera, height_px});
+    const Material& material = state_->pictures[0].material;
+    const int side = state_->visible_side(0, material, {camera, height_px});
     for (int i = 0; i < kMapSlots; ++i) {
         const auto& held = state_->maps.slot(i).value;
         const bool coarse = held && held->side > 0 && (side == 0 || held->side < side);
@@ -535,8 +595,18 @@ Scene Reconciler::detailed_scene(const Camera& camera, const View& view, int hei
     return detailed;
 }
 
-bool Reconciler::drawable() const {
-    return state_->environments.slot(0).value && state_->meshes.slot(0).value && state_->presented;
+bool Reconciler::drawable() const { return state_->drawable(0); }
+bool Reconciler::drawable(std::size_t further) const { return state_->drawable(1 + further); }
+
+std::string Reconciler::error_of(std::size_t further) const {
+    const auto failure = [](const auto& slot) {
+        return !slot.keys.wanted.empty() && slot.keys.wanted == slot.keys.failed ? slot.error : std::string{};
+    };
+    std::string error = failure(state_->environments.slot(1 + further));
+    if (error.empty()) error = failure(state_->meshes.slot(1 + further));
+    for (int i = 0; i < kMapSlots && error.empty(); ++i)
+        error = failure(state_->maps.slot(State::map_slot(1 + further, i)));
+    return error;
 }
 
 bool Reconciler::pending() const {

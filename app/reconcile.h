@@ -18,6 +18,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,7 @@ namespace patina {
 struct ReconcileOptions {
     BakeCache bakes;
     BakeSettings bake_settings = drawing_bake_settings();  ///< but for the levels, which the pictures choose
-    bool skip = true;            ///< false: prepares what any picture could need, for comparison
+    bool skip = true;  ///< false: prepares what any picture could need, for comparison
     std::uint64_t map_bytes = std::uint64_t{1} << 30;  ///< kept on the GPU for switching back
     std::uint64_t mesh_bytes = std::uint64_t{512} << 20;
     std::uint64_t environment_bytes = std::uint64_t{256} << 20;
@@ -42,6 +43,15 @@ struct ReconcileCounts {
     int meshes_loaded = 0, meshes_from_memory = 0;
 };
 
+/// What one picture is made of. The document's is the first; a sheet of views has more.
+struct WantedPicture {
+    Material material;  ///< maps by full path
+    std::string mesh, environment;
+    View view;    ///< decides what of the light is looked up,
+    Sight sight;  ///< and this the detail of maps
+};
+inline constexpr std::size_t kMaxFurtherPictures = 16;
+
 class Reconciler {
 public:
     Reconciler(Renderer& renderer, const Registry& registry, Jobs& jobs, ReconcileOptions options);
@@ -52,14 +62,20 @@ public:
     /// Compares and starts; also does a share of the waiting uploads. opened counts documents opened: while
     /// another one's maps load, the whole old picture stays. True if there is more to upload: call again
     /// soon.
-    /// sight: how large the picture is seen, which the detail of maps follows.
-    bool update(const Document& document, std::uint64_t opened, const Sight& sight = {});
+    /// sight: how large the picture is seen, which the detail of maps follows. further: beside the document's
+    /// picture, at most kMaxFurtherPictures; they share what they have in common.
+    bool update(const Document& document, std::uint64_t opened, const Sight& sight = {},
+                std::span<const WantedPicture> further = {});
 
     /// The last complete picture. Without light and mesh yet (the very first moments) nothing can be drawn.
     Scene scene(const Camera& camera, const View& view) const;
     /// The same to be drawn larger: maps that are not fine enough for that are read again at once.
     Scene detailed_scene(const Camera& camera, const View& view, int height_px) const;
     bool drawable() const;
+    /// Likewise of a further picture; what is broken there says why.
+    Scene scene_of(std::size_t further, const Camera& camera, const View& view) const;
+    bool drawable(std::size_t further) const;
+    std::string error_of(std::size_t further) const;
     bool pending() const;  ///< something wanted is not shown yet and has not failed
 
     const std::array<ui::MapStatus, kMapSlots>& maps() const;

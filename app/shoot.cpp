@@ -57,10 +57,35 @@ std::optional<Estimate> tried(const Image& photo, const std::optional<Region>& r
 
 }  // namespace
 
+namespace {
+
+constexpr int kPhotoPx = 2048;  ///< more detail than a view shows
+
+/// Half the size each way, as often as needed: means of 2×2 pixels.
+Image reduced(Image image, int max_side) {
+    while (std::max(image.width, image.height) > max_side) {
+        Image half =
+            make_image(std::max(1, image.width / 2), std::max(1, image.height / 2), 3, PixelType::F32);
+        for (int y = 0; y < half.height; ++y)
+            for (int x = 0; x < half.width; ++x)
+                for (int c = 0; c < 3; ++c) {
+                    float sum = 0.0f;
+                    for (const int j : {2 * y, std::min(2 * y + 1, image.height - 1)})
+                        for (const int i : {2 * x, std::min(2 * x + 1, image.width - 1)})
+                            sum += texel(image, i, j, c);
+                    set_texel(half, x, y, c, 0.25f * sum);
+                }
+        image = std::move(half);
+    }
+    return image;
+}
+
+}  // namespace
+
 LoadedPhoto load_photo(const Registry& registry, const std::string& file) {
     const std::filesystem::path path = path_from_utf8(file);
     LoadedImage loaded = import_image(registry, path);
-    return {.linear = linear_photo(loaded.image),
+    return {.linear = reduced(linear_photo(loaded.image), kPhotoPx),
             .exif = exif_of(load_image_metadata(path)),
             .notes = std::move(loaded.notes)};
 }

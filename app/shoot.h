@@ -15,7 +15,7 @@ namespace patina {
 
 /// A photo read from disk.
 struct LoadedPhoto {
-    Image linear;  ///< 3 channels of F32
+    Image linear;  ///< 3 channels of F32, at most 2048 pixels a side
     CameraExif exif;
     std::vector<std::string> notes;
 };

@@ -33,11 +33,16 @@ constexpr std::array kPurposes{
     PurposeRow{BrowserPurpose::OpenEnvironment, "Open environment", "Open", "hdr exr", ""},
     PurposeRow{BrowserPurpose::OpenMesh, "Open mesh", "Open", "obj ply off stl", ""},
     PurposeRow{BrowserPurpose::ExportRender, "Export picture", "Export", "png exr", ".png"},
+    PurposeRow{BrowserPurpose::OpenComparison, "Open comparison", "Open", "json", ""},
+    PurposeRow{BrowserPurpose::SaveComparison, "Save comparison as", "Save", "json", ".json"},
+    PurposeRow{BrowserPurpose::ChoosePhoto, "Choose a photo", "Use", kImages, ""},
+    PurposeRow{BrowserPurpose::ExportReport, "Export report", "Export", "pdf html", ".pdf"},
 };
 const PurposeRow& purpose_row(BrowserPurpose purpose) { return kPurposes[static_cast<std::size_t>(purpose)]; }
 
 bool saves(BrowserPurpose purpose) {
-    return purpose == BrowserPurpose::SavePreset || purpose == BrowserPurpose::ExportRender;
+    return purpose == BrowserPurpose::SavePreset || purpose == BrowserPurpose::ExportRender ||
+           purpose == BrowserPurpose::SaveComparison || purpose == BrowserPurpose::ExportReport;
 }
 
 std::string extension_of(std::string_view name) {
@@ -150,6 +155,18 @@ void confirm(PanelContext& context) {
         case BrowserPurpose::ExportRender:
             requests.push_back(
                 request::ExportRender{file, context.ui.export_width, context.ui.export_height});
+            break;
+        case BrowserPurpose::OpenComparison:
+            requests.push_back(request::OpenSheet{file});
+            break;
+        case BrowserPurpose::SaveComparison:
+            requests.push_back(request::SaveSheetAs{file});
+            break;
+        case BrowserPurpose::ChoosePhoto:
+            requests.push_back(request::SetPhoto{file});
+            break;
+        case BrowserPurpose::ExportReport:
+            requests.push_back(request::ExportReport{file});
             break;
     }
     browser.open = false;

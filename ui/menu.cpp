@@ -30,6 +30,8 @@ bool is_checked(const PanelContext& context, Action action) {
             return context.ui.show_inspector;
         case Action::ToggleLog:
             return !context.ui.drawer.empty();
+        case Action::Compare:
+            return context.sheet != nullptr;
         default:
             return false;
     }
@@ -44,9 +46,10 @@ std::string line_title(const PanelContext& context, const Shortcut& shortcut) {
 }
 
 bool starts_group(Action action) {
-    constexpr std::array starts{Action::ImportMaps,  Action::Save,          Action::ExportRender,
-                                Action::Quit,        Action::Search,        Action::NextEnvironment,
-                                Action::NextShading, Action::ToggleLibrary, Action::About};
+    constexpr std::array starts{Action::ImportMaps,   Action::Save,          Action::ExportRender,
+                                Action::Quit,         Action::Search,        Action::NextEnvironment,
+                                Action::NextShading,  Action::ToggleLibrary, Action::OpenComparison,
+                                Action::ExportReport, Action::About};
     return std::find(starts.begin(), starts.end(), action) != starts.end();
 }
 
@@ -135,6 +138,7 @@ void draw_menu(PanelContext& context) {
     draw_one_menu(context, Menu::File, "File");
     draw_one_menu(context, Menu::Edit, "Edit");
     draw_one_menu(context, Menu::View, "View");
+    draw_one_menu(context, Menu::Compare, "Compare");
     draw_one_menu(context, Menu::Help, "Help");
     ImGui::PopStyleVar(2);
     draw_title(context);

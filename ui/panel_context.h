@@ -7,6 +7,7 @@
 
 #include "materials/material.h"
 #include "renderer/core/camera.h"
+#include "renderer/core/comparison.h"
 #include "renderer/core/ledger.h"
 #include "renderer/core/view.h"
 #include "ui/recorder.h"
@@ -144,6 +145,7 @@ struct ImportSheet {
 // ---- the file browser ----
 
 enum class BrowserPurpose {
+    // In the order of the browser's own table.
     OpenPreset,
     SavePreset,
     AssignMap,
@@ -151,7 +153,11 @@ enum class BrowserPurpose {
     ImportFolder,
     OpenEnvironment,
     OpenMesh,
-    ExportRender
+    ExportRender,
+    OpenComparison,
+    SaveComparison,
+    ChoosePhoto,
+    ExportReport
 };
 struct BrowserEntry {
     std::string name;
@@ -190,6 +196,9 @@ struct FileBrowser {
 
 // ---- the interface's own state, nothing of the document ----
 
+/// What the mouse does on the selected view's photo.
+enum class PhotoTool { None, Fit, GreyCard, WhitePaper, Region };
+
 /// The slider bar that is held: where its drag began.
 struct BarDrag {
     float from_x = 0.0f;
@@ -226,7 +235,7 @@ struct AccuracyStatus {
 
 struct UiState {
     AccuracySettings accuracy;
-    bool split_drag = false;  ///< the split's line is held
+    bool split_drag = false;          ///< the split's line is held
     std::string left_tab, right_tab;  ///< panel ids; empty: the first
     std::string drawer;               ///< open bottom panel's id; empty: closed
     bool show_library = true;
@@ -248,7 +257,15 @@ struct UiState {
     glm::vec3 emission_color{1.0f};  ///< of a black emission, so that its strength can be raised again
     bool rotating_light = false;     ///< the viewport drag under way turns the light
     bool viewport_drag = false;
-    bool viewport_used = false;  ///< the artist knows how to turn the object: no hint
+    int sheet_selected = 0;       ///< which view of the sheet the panels edit
+    int sheet_enlarged = -1;      ///< the view that fills the sheet; < 0: all are seen
+    bool sheet_turn_all = false;  ///< turning the light turns that of every view
+    PhotoTool photo_tool = PhotoTool::None;
+    bool photo_heat = false;      ///< the difference instead of the photo
+    bool photo_held = false;      ///< a point or rectangle is being dragged in this frame
+    float photo_wipe = 0.0f;      ///< where the photo begins, from the view's left, 0…1
+    glm::vec2 region_from{0.0f};  ///< where the rectangle under the mouse began
+    bool viewport_used = false;   ///< the artist knows how to turn the object: no hint
 };
 
 struct Drop {
@@ -267,11 +284,32 @@ struct Viewport {
     AccuracyStatus accuracy;
 };
 
+/// One view of the sheet, in the order of places_of().
+struct SheetCell {
+    TextureId texture = 0;
+    std::string preset, light;  ///< titles
+    std::string error;          ///< one sentence: what of it could not be had
+    TextureId photo =
+        0;  ///< in the view's frame, its coverage as alpha; first row at the top, as the next two
+    TextureId photo_raw = 0;  ///< the whole photo
+    TextureId heat = 0;       ///< the difference
+    glm::ivec2 photo_px{0};   ///< size of the photo; 0: not read yet
+    std::string photo_about;  ///< camera and exposure
+    std::string residual;     ///< "ΔE 3.2 · light +4 %"
+};
+/// A view of the sheet that is seen, and the framebuffer pixels its picture should have.
+struct SheetSize {
+    int view = 0;
+    glm::ivec2 size_px{0};
+};
+
 /// What the app needs to know after a frame.
 struct WorkspaceResult {
     glm::ivec2 viewport_size_px{0};  ///< framebuffer pixels the picture should have; 0×0: hidden
     bool viewport_active = false;    ///< orbiting, panning or turning the light
     bool item_active = false;        ///< a slider or text field is held: an undo step is not finished
+    std::vector<SheetSize> sheet;    ///< while the sheet is shown
+    bool turn_all_lights = false;    ///< a turn of the light in this frame is meant for all views
     bool wants_redraw = false;       ///< something moves by itself: draw another frame soon
 };
 
@@ -299,6 +337,12 @@ struct PanelContext {
     const EnvironmentInfo& environment_info;
     const std::vector<Panel>& panels;  ///< builtin_panels() and whatever the registry adds
     Viewport viewport;
+    /// Views side by side instead of the one viewport; view, environment and mesh above are then those of the
+    /// selected view. Texts are edited in place, views come and go by requests. nullptr: none is shown.
+    Comparison* sheet = nullptr;
+    std::vector<SheetCell> sheet_cells;
+    std::string sheet_file;  ///< empty: never saved
+    bool sheet_unsaved = false;
     const WorkLedger* work = nullptr;  ///< counted since the start, or since request::ClearWork
     const UnsavedQuestion* unsaved = nullptr;
     const RecoveryQuestion* recovery = nullptr;

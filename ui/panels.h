@@ -13,6 +13,7 @@ void draw_meshes_panel(PanelContext& context);
 void draw_material_panel(PanelContext& context);
 void draw_light_panel(PanelContext& context);
 void draw_view_panel(PanelContext& context);
+void draw_sheet_panel(PanelContext& context);
 // Drawer.
 void draw_log_panel(PanelContext& context);
 void draw_work_panel(PanelContext& context);
@@ -32,6 +33,8 @@ void draw_menu(PanelContext& context);
 float toolbar_height(float width);
 void draw_toolbar(PanelContext& context, const Rect& rect);
 void draw_viewport(PanelContext& context, const Rect& rect);
+/// The views side by side, in the viewport's place. Precondition: context.sheet.
+void draw_sheet(PanelContext& context, const Rect& rect);
 float status_line_height();
 void draw_status_line(PanelContext& context, const Rect& rect);
 void draw_file_browser(PanelContext& context, const Rect& rect);

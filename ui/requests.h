@@ -7,6 +7,8 @@
 
 #include "materials/material.h"
 
+#include <glm/vec2.hpp>
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -85,6 +87,33 @@ struct ExportRender {
     int width = 0;
     int height = 0;
 };
+// Views side by side.
+struct ShowSheet {
+    bool shown = true;  ///< without a sheet of before, one of two lights is made
+};
+enum class SheetChange { AddLight, AddPreset, Duplicate, Remove, ShowEdited, RemovePhoto };
+struct ChangeSheet {
+    SheetChange change = SheetChange::AddLight;
+    int view = 0;  ///< at which
+};
+struct OpenSheet {
+    std::string file;
+};
+struct SaveSheet {};  ///< to its file; without one the app opens the browser
+struct SaveSheetAs {
+    std::string file;
+};
+struct SetPhoto {  ///< of the selected view's light
+    std::string file;
+};
+struct PickCard {  ///< a card's colour sets exposure and white balance of that view's photo
+    int view = 0;
+    glm::vec2 point{0.0f};  ///< fraction of the photo
+    bool white = false;     ///< white paper instead of an 18 % grey card
+};
+struct ExportReport {
+    std::string file;  ///< .html or .pdf
+};
 struct CancelJob {
     std::uint64_t id = 0;
 };
@@ -109,7 +138,9 @@ using Request =
                  request::ClearRecent, request::AssignMap, request::ClearMap, request::ReloadMap,
                  request::LocateMap, request::Reveal, request::Dropped, request::ImportMaps,
                  request::ApplyImport, request::CancelImport, request::LoadEnvironment, request::LoadMesh,
-                 request::ExportRender, request::CancelJob, request::ClearLog, request::ClearWork,
+                 request::ExportRender, request::ShowSheet, request::ChangeSheet, request::OpenSheet,
+                 request::SaveSheet, request::SaveSheetAs, request::SetPhoto, request::PickCard,
+                 request::ExportReport, request::CancelJob, request::ClearLog, request::ClearWork,
                  request::CopyText, request::ListFolder, request::MakeFolder>;
 using Requests = std::vector<Request>;
 

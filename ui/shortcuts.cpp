@@ -46,6 +46,10 @@ std::optional<Request> request_of(const PanelContext& context, Action action) {
             return request::Save{};
         case Action::Revert:
             return request::Revert{};
+        case Action::Compare:
+            return request::ShowSheet{context.sheet == nullptr};
+        case Action::SaveComparison:
+            return request::SaveSheet{};
         case Action::Quit:
             return request::Quit{};
         case Action::Undo:
@@ -53,7 +57,6 @@ std::optional<Request> request_of(const PanelContext& context, Action action) {
         case Action::Redo:
             return request::Redo{};
         default:
-            (void)context;
             return std::nullopt;
     }
 }
@@ -72,6 +75,12 @@ std::optional<BrowserPurpose> browser_of(Action action) {
             return BrowserPurpose::OpenMesh;
         case Action::ExportRender:
             return BrowserPurpose::ExportRender;
+        case Action::OpenComparison:
+            return BrowserPurpose::OpenComparison;
+        case Action::SaveComparisonAs:
+            return BrowserPurpose::SaveComparison;
+        case Action::ExportReport:
+            return BrowserPurpose::ExportReport;
         default:
             return std::nullopt;
     }
@@ -156,6 +165,8 @@ void close_topmost(PanelContext& context) {
     UiState& ui = context.ui;
     if (context.browser.open)
         context.browser.open = false;
+    else if (context.sheet && ui.sheet_enlarged >= 0)
+        ui.sheet_enlarged = -1;
     else
         ui.drawer.clear();
 }
@@ -346,6 +357,10 @@ bool can_act(const PanelContext& context, Action action) {
             return context.status.can_redo;
         case Action::Revert:
             return context.status.dirty && !context.status.file.empty();
+        case Action::SaveComparison:
+        case Action::SaveComparisonAs:
+        case Action::ExportReport:
+            return context.sheet != nullptr;
         default:
             return true;
     }

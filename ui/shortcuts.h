@@ -16,7 +16,8 @@ enum class Action {
     Frame, Home, OrbitLeft, OrbitRight, OrbitUp, OrbitDown, ZoomIn, ZoomOut, LightLeft, LightRight,
     ExposureUp, ExposureDown, NextEnvironment, PreviousEnvironment, NextMesh, NextTonemap, NextBackground, NextShading,
     Debug1, Debug2, Debug3, Debug4, Debug5, Debug6, Debug7, Debug8, Debug9, Debug10,
-    ToggleLibrary, ToggleInspector, ToggleLog, Search, Shortcuts, About, CloseSheet
+    ToggleLibrary, ToggleInspector, ToggleLog, Search, Shortcuts, About, CloseSheet,
+    Compare, OpenComparison, SaveComparison, SaveComparisonAs, ExportReport
 };
 
 /// io.KeysDown's indices, which are GLFW's: letters and digits are their upper-case ASCII, the others as here.
@@ -30,7 +31,7 @@ enum Key : int {
 enum Modifiers : int { ModNone = 0, ModCommand = 1, ModShift = 2 };   ///< Command: Ctrl, or Cmd on a Mac
 // clang-format on
 
-enum class Menu { None, File, Edit, View, Help };
+enum class Menu { None, File, Edit, View, Compare, Help };
 
 struct Shortcut {
     Action action;
@@ -91,6 +92,11 @@ inline constexpr std::array kShortcuts{
     Shortcut{Action::ToggleLibrary, '1', ModCommand, Menu::View, "Library", "Show or hide the library on the left."},
     Shortcut{Action::ToggleInspector, '2', ModCommand, Menu::View, "Inspector", "Show or hide the inspector on the right."},
     Shortcut{Action::ToggleLog, 'L', ModCommand, Menu::View, "Log", "Show or hide what the program has said."},
+    Shortcut{Action::Compare, 'C', ModNone, Menu::Compare, "Side by side", "Show several presets and lightings at once, or go back to the one view."},
+    Shortcut{Action::OpenComparison, KeyNone, ModNone, Menu::Compare, "Open comparison…", "Open a sheet of views from its file."},
+    Shortcut{Action::SaveComparison, KeyNone, ModNone, Menu::Compare, "Save comparison", "Write the sheet of views to its file."},
+    Shortcut{Action::SaveComparisonAs, KeyNone, ModNone, Menu::Compare, "Save comparison as…", "Write the sheet of views to another file."},
+    Shortcut{Action::ExportReport, KeyNone, ModNone, Menu::Compare, "Export report…", "Write the sheet with its values and photos as a web page or PDF document."},
     Shortcut{Action::Shortcuts, KeyF1, ModNone, Menu::Help, "Keyboard shortcuts", "Show this list; ? does it as well."},
     Shortcut{Action::About, KeyNone, ModNone, Menu::Help, "About Patina", "Version, graphics driver and licence."},
     Shortcut{Action::CloseSheet, KeyEscape, ModNone, Menu::None, "Close", "Close the list, file browser or drawer that is open."},

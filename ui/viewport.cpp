@@ -4,6 +4,7 @@
 #include "ui/navigation.h"
 #include "ui/panels.h"
 #include "ui/shortcuts.h"
+#include "ui/viewport_parts.h"
 #include "ui/widgets.h"
 
 #include <imgui.h>
@@ -14,9 +15,8 @@
 #include <string>
 
 namespace patina::ui {
-namespace {
 
-void handle_mouse(PanelContext& context, const Rect& rect) {
+void handle_view_mouse(PanelContext& context, const Rect& rect) {
     const ImGuiIO& io = ImGui::GetIO();
     UiState& ui = context.ui;
     const bool active = ImGui::IsItemActive();
@@ -25,7 +25,7 @@ void handle_mouse(PanelContext& context, const Rect& rect) {
         ui.rotating_light = io.MouseDown[ImGuiMouseButton_Right] || io.KeyCtrl || io.KeysDown[KeyL];
     }
     if (!active) ui.viewport_drag = ui.rotating_light = false;
-    if (drag_split(context, rect)) {
+    if (!context.sheet && drag_split(context, rect)) {
         ui.viewport_drag = ui.rotating_light = false;
         return;
     }
@@ -40,8 +40,9 @@ void handle_mouse(PanelContext& context, const Rect& rect) {
     }
     if (!ImGui::IsItemHovered()) return;
     if (io.MouseWheel != 0.0f) zoom(context.camera, io.MouseWheel);
-    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) act(context, Action::Home);
 }
+
+namespace {
 
 void draw_picture(PanelContext& context, const Rect& rect) {
     ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -57,7 +58,8 @@ void draw_picture(PanelContext& context, const Rect& rect) {
         IM_COL32(30, 30, 30, 255), text.c_str());
 }
 
-/// A dark label in a corner of the picture.
+}  // namespace
+
 void draw_chip(const ImVec2& at, const std::string& text) {
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     const ImVec2 pad{px(8), px(4)};
@@ -66,6 +68,8 @@ void draw_chip(const ImVec2& at, const std::string& text) {
                         px(5));
     draw->AddText({at.x + pad.x, at.y + pad.y}, color::kText, text.c_str());
 }
+
+namespace {
 
 void draw_overlays(PanelContext& context, const Rect& rect) {
     const float inset = px(10);
@@ -118,7 +122,9 @@ void draw_viewport(PanelContext& context, const Rect& rect) {
                                ImGuiButtonFlags_MouseButtonMiddle);
     record(context, "viewport");
     const bool moved_before = context.ui.viewport_drag;
-    handle_mouse(context, rect);
+    handle_view_mouse(context, rect);
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+        act(context, Action::Home);
     context.ui.viewport_used |= moved_before || (ImGui::IsItemHovered() && ImGui::GetIO().MouseWheel != 0.0f);
     context.result.viewport_active = context.ui.viewport_drag;
     draw_picture(context, rect);

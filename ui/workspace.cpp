@@ -137,6 +137,8 @@ std::vector<Panel> builtin_panels() {
         {"material", "Material", "Values and maps of the material.", Side::Right, draw_material_panel},
         {"light", "Light", "The environment: turn it, expose it, show it.", Side::Right, draw_light_panel},
         {"view", "View", "Shading, camera and mesh.", Side::Right, draw_view_panel},
+        {"sheet", "Compare", "Views side by side: presets, lightings, photos and the report.", Side::Right,
+         draw_sheet_panel},
         {"log", "Log", "What the program has said.", Side::Bottom, draw_log_panel},
         {"work", "Work", "What was computed, and what was skipped and why.", Side::Bottom, draw_work_panel},
         {"accuracy", "Accuracy", "How far the shading is from the reference, and what it costs.",
@@ -160,7 +162,10 @@ void draw_workspace(PanelContext& context) {
                           {layout.toolbar.x0, layout.toolbar.y0, layout.viewport.x1, layout.viewport.y1});
     } else {
         draw_toolbar(context, layout.toolbar);
-        draw_viewport(context, layout.viewport);
+        if (context.sheet)
+            draw_sheet(context, layout.viewport);
+        else
+            draw_viewport(context, layout.viewport);
     }
     context.ui.accuracy.meter = context.ui.drawer == "accuracy";
     draw_drawer(context, layout.drawer);

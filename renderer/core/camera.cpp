@@ -25,6 +25,14 @@ glm::vec3 backward(const Camera& camera) {
 
 }  // namespace
 
+Camera fitted_to(const Camera& camera, float aspect) {
+    Camera fitted = camera;
+    if (aspect >= 1.0f) return fitted;
+    const float half = std::tan(glm::radians(camera.fov_deg) / 2.0f) / aspect;
+    fitted.fov_deg = std::min(2.0f * glm::degrees(std::atan(half)), 170.0f);
+    return fitted;
+}
+
 glm::vec3 camera_position(const Camera& camera) {
     return camera.target + safe_distance(camera) * backward(camera);
 }

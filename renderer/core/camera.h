@@ -17,6 +17,10 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
+/// The camera for a picture of that aspect (width / height) such that an object that fits into a square
+/// picture fits into this one: in a narrow picture the field of view is the horizontal one.
+Camera fitted_to(const Camera& camera, float aspect);
+
 glm::vec3 camera_position(const Camera& camera);
 glm::mat4 view_matrix(const Camera& camera);
 /// OpenGL clip space (z −1…1). aspect = width / height.

@@ -38,7 +38,8 @@ View view_of(const Comparison& comparison, const Lighting& lighting) {
             .tonemap = lighting.tonemap,
             .background = lighting.background,
             .plain_color = lighting.plain_color,
-            .shading = comparison.shading};
+            .shading = comparison.shading,
+            .quality = comparison.quality};
 }
 
 Lighting lighting_of(const View& view, const std::string& environment) {

@@ -1,8 +1,9 @@
 // A comparison as plain values compared with ==: presets as rows, lightings as columns, views of their own
 // beside them, and the photos they are held against. Knows no file, no window and no GPU.
 //
-// Pictures are addressed in fractions: (0,0) the upper left corner, (1,1) the lower right one. Files are
-// named by full path here, whatever a comparison file writes.
+// A photo is addressed in fractions of itself, a view in fractions of the square in its middle, so that a
+// comparison means the same in views of any shape: (0,0) the upper left corner, (1,1) the lower right one.
+// Files are named by full path here, whatever a comparison file writes.
 #pragma once
 
 #include "renderer/core/camera.h"
@@ -84,7 +85,8 @@ struct Comparison {
     std::string title, author, remarks;
     std::string mesh = "sphere";  ///< id or path
     Camera camera;                ///< of every view
-    Shading shading = Shading::SplitSum;
+    Shading shading = View{}.shading;
+    Quality quality = View{}.quality;
     std::vector<ComparedPreset> rows;
     std::vector<Lighting> columns;  ///< the grid is rows × columns
     std::vector<FreeView> views;    ///< after it

@@ -4,7 +4,10 @@
 #include "renderer/core/homography.h"
 
 #include <glm/common.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <array>
@@ -29,11 +32,12 @@ struct Span {
 };
 Span pixels_of(const std::optional<Region>& region, const Image& picture) {
     const Region r = region.value_or(Region{});
-    const auto at = [](float fraction, int size) {
-        return std::clamp(int(std::lround(fraction * float(size))), 0, size);
-    };
-    return {at(r.x0, picture.width), at(r.y0, picture.height), at(r.x1, picture.width),
-            at(r.y1, picture.height)};
+    const glm::ivec2 size(picture.width, picture.height);
+    const glm::ivec2 low(glm::round(pixel_of({r.x0, r.y0}, size)));
+    const glm::ivec2 high(glm::round(pixel_of({r.x1, r.y1}, size)));
+    if (!region) return {0, 0, size.x, size.y};
+    return {std::clamp(low.x, 0, size.x), std::clamp(low.y, 0, size.y), std::clamp(high.x, 0, size.x),
+            std::clamp(high.y, 0, size.y)};
 }
 
 template <class Act>
@@ -99,18 +103,47 @@ std::optional<PhotoBalance> balance_to(glm::vec3 patch, glm::vec3 target) {
     return PhotoBalance{std::log2(gain), target / patch / gain};
 }
 
+glm::dvec2 pixel_of(glm::dvec2 fraction, glm::ivec2 view_px) {
+    const double side = std::min(view_px.x, view_px.y);
+    return 0.5 * (glm::dvec2(view_px) - side) + side * fraction;
+}
+
+PhotoFit first_fit(bool flat, const Camera& camera) {
+    PhotoFit fit;
+    fit.photo = {glm::vec2{0.2f, 0.2f}, {0.8f, 0.2f}, {0.8f, 0.8f}, {0.2f, 0.8f}};
+    if (flat) {
+        const glm::mat4 all = projection_matrix(camera, 1.0f) * view_matrix(camera);
+        const std::array<glm::vec4, 4> corners{
+            glm::vec4{-1, 1, 0, 1}, {1, 1, 0, 1}, {1, -1, 0, 1}, {-1, -1, 0, 1}};
+        for (std::size_t i = 0; i < 4; ++i) {
+            const glm::vec4 clip = all * corners[i];
+            if (clip.w > 0.0f) fit.view[i] = {0.5f + 0.5f * clip.x / clip.w, 0.5f - 0.5f * clip.y / clip.w};
+        }
+        return fit;
+    }
+    // The tangent cone of the unit sphere: its half angle has the sine 1/distance.
+    const float distance = std::max(camera.distance, 1.01f);
+    const float half =
+        0.5f * std::tan(std::asin(1.0f / distance)) / std::tan(glm::radians(camera.fov_deg) / 2.0f);
+    fit.view = {glm::vec2{0.5f - half, 0.5f - half},
+                {0.5f + half, 0.5f - half},
+                {0.5f + half, 0.5f + half},
+                {0.5f - half, 0.5f + half}};
+    return fit;
+}
+
 std::optional<glm::dmat3> view_to_photo(const Photo& photo, glm::ivec2 photo_px, glm::ivec2 view_px) {
-    const glm::dvec2 photo_size(photo_px), view_size(view_px);
+    const glm::dvec2 photo_size(photo_px);
     if (photo.fit) {
         FourPoints from, to;
         for (std::size_t i = 0; i < 4; ++i) {
-            from[i] = glm::dvec2(photo.fit->view[i]) * view_size;
+            from[i] = pixel_of(photo.fit->view[i], view_px);
             to[i] = glm::dvec2(photo.fit->photo[i]) * photo_size;
         }
         return homography(from, to);
     }
-    const double scale = std::max(photo_size.x / view_size.x, photo_size.y / view_size.y);
-    const glm::dvec2 shift = 0.5 * (photo_size - scale * view_size);
+    const double scale = std::max(photo_size.x, photo_size.y) / std::min(view_px.x, view_px.y);
+    const glm::dvec2 shift = 0.5 * (photo_size - scale * glm::dvec2(view_px));
     return glm::dmat3(scale, 0.0, 0.0, 0.0, scale, 0.0, shift.x, shift.y, 1.0);
 }
 

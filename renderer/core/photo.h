@@ -38,6 +38,13 @@ std::optional<PhotoBalance> balance_to(glm::vec3 patch, glm::vec3 target);
 inline constexpr float kGreyCard = 0.18f;
 inline constexpr float kWhitePaper = 0.9f;
 
+/// Where a view's fraction (of the square in its middle) lies, in pixels.
+glm::dvec2 pixel_of(glm::dvec2 fraction, glm::ivec2 view_px);
+
+/// A fit to begin with: the view's points are the corners of the flat quad as the camera sees it, or of the
+/// square around the unit sphere; the photo's stand somewhat inside it.
+PhotoFit first_fit(bool flat, const Camera& camera);
+
 /// From the pixels of a view of that size to those of the photo. nullopt where the fit's points are
 /// degenerate.
 std::optional<glm::dmat3> view_to_photo(const Photo& photo, glm::ivec2 photo_px, glm::ivec2 view_px);

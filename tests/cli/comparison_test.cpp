@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 namespace patina {
 namespace {
 
@@ -98,6 +100,68 @@ TEST(ReportCommand, says_what_it_can_write_before_it_works) {
     EXPECT_EQ(outcome.exit_status, 1);
     EXPECT_NE(outcome.errors.find(".html or .pdf"), std::string::npos) << outcome.errors;
     EXPECT_EQ(work.run({"report", "sheet.json"}).exit_status, 2);
+}
+
+TEST(Turntable, draws_a_whole_turn_in_numbered_pictures) {
+    const Workspace work;
+    const Outcome outcome = work.run({"render", "-", "-o", "turn.png", "--size", "32x32", "--env", "test",
+                                      "--turntable", "4", "--turn", "light", "--tonemap", "none"});
+    ASSERT_EQ(outcome.exit_status, 0) << outcome.errors;
+    EXPECT_EQ(work.files(),
+              (std::vector<std::string>{"turn-001.png", "turn-002.png", "turn-003.png", "turn-004.png"}));
+    ASSERT_EQ(work.run({"render", "-", "-o", "half.png", "--size", "32x32", "--env", "test", "--env-rotation",
+                        "180", "--tonemap", "none"})
+                  .exit_status,
+              0);
+    const Image third = load_image(work.path("turn-003.png")).image,
+                half = load_image(work.path("half.png")).image;
+    EXPECT_EQ(third.bytes, half.bytes);
+    EXPECT_NE(third.bytes, load_image(work.path("turn-001.png")).image.bytes);
+}
+
+TEST(UpToDate, pictures_are_made_again_only_when_something_in_them_changed) {
+    const Workspace work;
+    work.write("mine.json", R"({"name": "Mine", "albedo": {"value": [0.5, 0.5, 0.5]}})");
+    const std::vector<std::string> command{"render", "mine.json", "-o",      "a.png",       "--size",
+                                           "16x16",  "--env",     "furnace", "--up-to-date"};
+    const auto says_up_to_date = [&](std::vector<std::string> words) {
+        const Outcome outcome = work.run(words);
+        EXPECT_EQ(outcome.exit_status, 0) << outcome.errors;
+        return outcome.errors.find("is up to date") != std::string::npos;
+    };
+    EXPECT_FALSE(says_up_to_date(command));
+    const std::string first = work.read("a.png");
+    EXPECT_TRUE(says_up_to_date(command));
+    EXPECT_EQ(work.read("a.png"), first);
+    std::vector<std::string> brighter = command;
+    brighter.insert(brighter.end(), {"--exposure", "1"});
+    EXPECT_FALSE(says_up_to_date(brighter));
+    EXPECT_FALSE(says_up_to_date(command)) << "it is the brighter one now";
+    work.write("mine.json", R"({"name": "Mine", "albedo": {"value": [0.5, 0.5, 0.6]}})");
+    EXPECT_FALSE(says_up_to_date(command));
+    work.write("a.png", "damaged");
+    EXPECT_FALSE(says_up_to_date(command));
+}
+
+TEST(UpToDate, the_recipe_for_many_pictures_makes_each_once) {
+    const Workspace work;
+    for (const char* name : {"one", "two"})
+        work.write(std::string(name) + ".json", std::string("{\"name\": \"") + name + "\"}");
+    const std::string command = "cd '" + work.folder().string() +
+                                "' && PATINA_CACHE_DIR=.cache JOBS=2 PATINA='" PATINA_PROGRAM
+                                "' OPTIONS='--size 16x16' sh '" PATINA_SOURCE_DIR
+                                "/docs/many.sh' out 'furnace test' one.json two.json 2> said.txt";
+    ASSERT_EQ(std::system(command.c_str()), 0) << work.read("said.txt");
+    for (const char* file :
+         {"out/one-furnace.png", "out/one-test.png", "out/two-furnace.png", "out/two-test.png"})
+        EXPECT_FALSE(work.read(file).empty()) << file;
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    const std::string said = work.read("said.txt");
+    std::size_t kept = 0;
+    for (std::size_t at = said.find("is up to date"); at != std::string::npos;
+         at = said.find("is up to date", at + 1))
+        ++kept;
+    EXPECT_EQ(kept, 4u) << said;
 }
 
 }  // namespace

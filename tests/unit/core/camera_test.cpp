@@ -85,5 +85,16 @@ TEST(Camera, matrices_stay_finite_for_senseless_distances) {
     }
 }
 
+TEST(Camera, fitted_to_a_narrow_picture_shows_as_much_across_as_a_square_one) {
+    const Camera camera{.fov_deg = 40.0f};
+    EXPECT_EQ(fitted_to(camera, 1.5f), camera);
+    const glm::vec4 edge{0.9f, 0.0f, 0.0f, 1.0f};
+    const auto across = [&](const Camera& seen, float aspect) {
+        const glm::vec4 clip = projection_matrix(seen, aspect) * view_matrix(seen) * edge;
+        return clip.x / clip.w;
+    };
+    EXPECT_NEAR(across(fitted_to(camera, 0.5f), 0.5f), across(camera, 1.0f), 1e-5f);
+}
+
 }  // namespace
 }  // namespace patina

@@ -197,10 +197,10 @@ TEST(PhotoResidual, is_nothing_for_the_same_picture_and_counts_only_the_region) 
     EXPECT_EQ(same.delta_e, 0.0f);
     EXPECT_EQ(same.luminance_rms, 0.0f);
     Image other = render;
-    for (int c = 0; c < 3; ++c) set_texel(other, 15, 5, c, 1.0f);
+    for (int c = 0; c < 3; ++c) set_texel(other, 12, 5, c, 1.0f);
     EXPECT_GT(residual_of(covered(render), other, std::nullopt).delta_e, 0.0f);
     const Residual left = residual_of(covered(render), other, Region{0.0f, 0.0f, 0.5f, 1.0f});
-    EXPECT_EQ(left.pixels, 100);
+    EXPECT_EQ(left.pixels, 50) << "half of the square in the middle";
     EXPECT_EQ(left.delta_e, 0.0f);
     EXPECT_EQ(residual_of(covered(render), other, Region{0.5f, 0.5f, 0.5f, 0.5f}).pixels, 0);
 }
@@ -263,6 +263,31 @@ TEST(CameraExif, is_read_from_what_cameras_write) {
     EXPECT_FALSE(exposure_value(exif_of({})));
     const std::vector<std::pair<std::string, std::string>> fraction{{"ExposureTime", "1/30"}};
     EXPECT_EQ(describe(exif_of(fraction)), "1/30 s");
+}
+
+TEST(PhotoInView, views_of_any_shape_mean_the_square_in_their_middle) {
+    EXPECT_EQ(pixel_of({0.0, 1.0}, {300, 100}), glm::dvec2(100.0, 100.0));
+    EXPECT_EQ(pixel_of({0.5, 0.0}, {100, 300}), glm::dvec2(50.0, 100.0));
+    Photo photo{.file = "a.png", .fit = PhotoFit{}};
+    const auto square = view_to_photo(photo, {80, 60}, {100, 100}),
+               wide = view_to_photo(photo, {80, 60}, {300, 100});
+    ASSERT_TRUE(square && wide);
+    EXPECT_LT(glm::distance(mapped(*square, {25, 75}), mapped(*wide, {125, 75})), 1e-9);
+}
+
+TEST(PhotoInView, a_first_fit_frames_what_is_drawn) {
+    const PhotoFit flat = first_fit(true, Camera{});
+    // The quad spans ±1 at distance 4.5 under 30°: ±1/(4.5·tan 15°) of the half picture.
+    const float half = 0.5f / (4.5f * std::tan(0.2617994f));
+    EXPECT_NEAR(flat.view[0].x, 0.5f - half, 1e-4f);
+    EXPECT_NEAR(flat.view[2].y, 0.5f + half, 1e-4f);
+    const PhotoFit round = first_fit(false, Camera{});
+    EXPECT_LT(round.view[0].x, flat.view[0].x);  // the sphere's outline is nearer than its middle
+    EXPECT_GT(round.view[0].x, flat.view[0].x - 0.02f);
+    for (const bool is_flat : {true, false}) {
+        Photo photo{.file = "a.png", .fit = first_fit(is_flat, Camera{.yaw_deg = 20.0f})};
+        EXPECT_TRUE(view_to_photo(photo, {400, 300}, {256, 256}));
+    }
 }
 
 }  // namespace

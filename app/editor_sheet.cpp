@@ -1,0 +1,291 @@
+#include "app/editor_sheet.h"
+
+#include "app/comparison_file.h"
+#include "app/editor_state.h"
+#include "app/paths.h"
+#include "materials/material_io.h"
+#include "materials/text_io.h"
+
+#include <algorithm>
+#include <exception>
+
+namespace patina {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path kept_sheet() { return state_folder() / "comparison.json"; }
+
+/// The selected view's place; nullopt without a sheet.
+std::optional<ViewPlace> selected_place(const Editor& editor) {
+    if (!editor.document.sheet) return std::nullopt;
+    const std::vector<ViewPlace> places = places_of(*editor.document.sheet);
+    if (places.empty()) return std::nullopt;
+    return places[std::min(std::size_t(std::max(editor.ui.sheet_selected, 0)), places.size() - 1)];
+}
+
+const SheetPreset& sheet_preset(Editor& editor, const std::string& name) {
+    const auto found = editor.sheet.presets.find(name);
+    if (found != editor.sheet.presets.end()) return found->second;
+    SheetPreset preset;
+    try {
+        if (name != "-") {
+            const fs::path file = find_preset(name);
+            preset.material = with_full_map_paths(load_material(file).material, file);
+        }
+    } catch (const std::exception& error) {
+        preset.error = error.what();
+        log_line(editor, ui::Severity::Error, error.what());
+    }
+    return editor.sheet.presets.emplace(name, std::move(preset)).first->second;
+}
+
+void start_sheet(Editor& editor, Comparison comparison, const fs::path& file) {
+    editor.sheet.file = file;
+    editor.sheet.saved.reset();
+    if (!file.empty()) editor.sheet.saved = comparison;
+    editor.camera = comparison.camera;
+    editor.ui.sheet_selected = 0;
+    editor.ui.sheet_enlarged = -1;
+    editor.document.sheet = std::move(comparison);
+    ++editor.changes;
+}
+
+/// A sheet that was not saved when the program ended.
+std::optional<Comparison> left_sheet(Editor& editor) {
+    std::error_code ignored;
+    if (!fs::exists(kept_sheet(), ignored)) return std::nullopt;
+    try {
+        return load_comparison(kept_sheet()).comparison;
+    } catch (const std::exception& error) {
+        log_line(editor, ui::Severity::Warning, error.what());
+        return std::nullopt;
+    }
+}
+
+}  // namespace
+
+ViewBinding bind_view(const Editor& editor) {
+    const Document& document = editor.document;
+    const std::optional<ViewPlace> place = selected_place(editor);
+    if (!place) return {-1, document.view, document.environment, document.mesh};
+    View view = view_of(*document.sheet, lighting_at(*document.sheet, *place));
+    view.debug = document.view.debug;
+    return {editor.ui.sheet_selected, view, lighting_at(*document.sheet, *place).environment,
+            document.sheet->mesh};
+}
+
+void take_binding(Editor& editor, const ViewBinding& before, const ViewBinding& after, bool all_lights) {
+    Document& document = editor.document;
+    if (before.selected < 0 || !document.sheet) {
+        document.view = after.view;
+        document.environment = after.environment;
+        document.mesh = after.mesh;
+        return;
+    }
+    Comparison& sheet = *document.sheet;
+    const std::vector<ViewPlace> places = places_of(sheet);
+    if (std::size_t(before.selected) >= places.size()) return;
+    const ViewPlace place = places[std::size_t(before.selected)];
+    const float turned = after.view.env_rotation_deg - before.view.env_rotation_deg;
+    if (turned != 0.0f)
+        sheet = with_turned_light(std::move(sheet), all_lights ? std::nullopt : std::optional(place), turned);
+    Lighting& light = lighting_at(sheet, place);
+    light.environment = after.environment;
+    light.exposure_ev = after.view.exposure_ev;
+    light.tonemap = after.view.tonemap;
+    light.background = after.view.background;
+    light.plain_color = after.view.plain_color;
+    if (after.environment != before.environment) light.title.clear();
+    if (is_reference(after.view) && !is_reference(before.view))
+        say_status(editor, "The reference gathers one view at a time; go back to the one view for it.");
+    else
+        sheet.shading = after.view.shading;
+    sheet.quality = after.view.quality;
+    sheet.mesh = after.mesh;
+    document.view.debug = after.view.debug;
+}
+
+std::vector<WantedPicture> wanted_pictures(Editor& editor) {
+    std::vector<WantedPicture> pictures;
+    if (!editor.document.sheet) return pictures;
+    const Comparison& sheet = *editor.document.sheet;
+    for (const ViewPlace place : places_of(sheet)) {
+        if (pictures.size() == kMaxFurtherPictures) break;
+        const std::string& preset = preset_at(sheet, place).preset;
+        const Material& material =
+            preset == kEditedPreset ? editor.document.material : sheet_preset(editor, preset).material;
+        View view = view_of(sheet, lighting_at(sheet, place));
+        view.debug = editor.document.view.debug;
+        pictures.push_back({material, sheet.mesh, lighting_at(sheet, place).environment, view});
+    }
+    return pictures;
+}
+
+View view_of_sheet(const Editor& editor, std::size_t view) {
+    const Comparison& sheet = *editor.document.sheet;
+    View result = view_of(sheet, lighting_at(sheet, places_of(sheet)[view]));
+    result.debug = editor.document.view.debug;
+    return result;
+}
+
+void show_sheet(Editor& editor, bool shown) {
+    ++editor.changes;
+    if (!shown) {
+        editor.sheet.put_away = std::exchange(editor.document.sheet, std::nullopt);
+        return;
+    }
+    if (editor.document.sheet) return;
+    editor.ui.right_tab = "sheet";
+    if (editor.sheet.put_away) {
+        editor.document.sheet = std::exchange(editor.sheet.put_away, std::nullopt);
+        return;
+    }
+    if (std::optional<Comparison> left = left_sheet(editor)) {
+        start_sheet(editor, std::move(*left), {});
+        say_status(editor, "The comparison that was not saved last time.");
+        return;
+    }
+    const Document& document = editor.document;
+    start_sheet(
+        editor,
+        first_comparison(lighting_of(document.view, document.environment), document.mesh, editor.camera), {});
+    say_status(editor, "The edited material under two lights; choose others in the library.");
+}
+
+void open_sheet(Editor& editor, const std::string& file) {
+    try {
+        std::error_code ignored;
+        const fs::path path = fs::absolute(utf8_to_path(file), ignored).lexically_normal();
+        LoadedComparison loaded = load_comparison(path);
+        for (const std::string& note : loaded.notes) log_line(editor, ui::Severity::Warning, note);
+        const std::size_t views = places_of(loaded.comparison).size();
+        editor.sheet.presets.clear();
+        start_sheet(editor, std::move(loaded.comparison), path);
+        editor.ui.right_tab = "sheet";
+        log_line(editor, ui::Severity::Info, "Opened " + utf8_from_path(path.filename()) + ".");
+        if (views > kMaxFurtherPictures)
+            log_line(editor, ui::Severity::Warning,
+                     "The first " + std::to_string(kMaxFurtherPictures) + " of " + std::to_string(views) +
+                         " views are shown; patina compare draws them all.");
+    } catch (const std::exception& error) {
+        log_line(editor, ui::Severity::Error, error.what());
+    }
+}
+
+bool save_sheet_as(Editor& editor, const std::string& chosen) {
+    if (!editor.document.sheet) return false;
+    try {
+        fs::path file = utf8_to_path(chosen);
+        if (file.extension() != ".json") file += ".json";
+        std::error_code ignored;
+        file = fs::absolute(file, ignored).lexically_normal();
+        Comparison comparison = *editor.document.sheet;
+        comparison.camera = editor.camera;
+        save_comparison(file, comparison);
+        editor.document.sheet->camera = editor.camera;
+        editor.sheet.file = file;
+        editor.sheet.saved = editor.document.sheet;
+        fs::remove(kept_sheet(), ignored);
+        log_line(editor, ui::Severity::Info, "Saved " + utf8_from_path(file.filename()) + ".");
+        return true;
+    } catch (const std::exception& error) {
+        log_line(editor, ui::Severity::Error, error.what());
+        return false;
+    }
+}
+
+void save_sheet(Editor& editor) {
+    if (!editor.document.sheet) return;
+    if (editor.sheet.file.empty()) return open_browser(editor, ui::BrowserPurpose::SaveComparison);
+    save_sheet_as(editor, path_to_utf8(editor.sheet.file));
+}
+
+bool set_sheet_preset(Editor& editor, const std::string& file) {
+    const std::optional<ViewPlace> place = selected_place(editor);
+    if (!place) return false;
+    ComparedPreset& preset = preset_at(*editor.document.sheet, *place);
+    if (preset.preset == kEditedPreset) return false;
+    preset.preset = file;
+    preset.title.clear();
+    editor.sheet.presets.erase(file);  // read it anew: it may have changed
+    return true;
+}
+
+void set_light(Editor& editor, const std::string& environment) {
+    const std::optional<ViewPlace> place = selected_place(editor);
+    (place ? lighting_at(*editor.document.sheet, *place).environment : editor.document.environment) =
+        environment;
+}
+
+void set_mesh(Editor& editor, const std::string& mesh) {
+    (editor.document.sheet ? editor.document.sheet->mesh : editor.document.mesh) = mesh;
+}
+
+bool sheet_unsaved(const Editor& editor) {
+    const std::optional<Comparison>& sheet =
+        editor.document.sheet ? editor.document.sheet : editor.sheet.put_away;
+    return sheet && sheet != editor.sheet.saved;
+}
+
+void keep_sheet(const Editor& editor) {
+    const std::optional<Comparison>& sheet =
+        editor.document.sheet ? editor.document.sheet : editor.sheet.put_away;
+    if (!sheet || !sheet_unsaved(editor)) return;
+    fs::create_directories(state_folder());
+    save_comparison(kept_sheet(), *sheet);
+}
+
+ReportWork::ReportWork(Editor& editor, Comparison shown, fs::path to)
+    : loader(editor.renderer, editor.registry,
+             {.parallel_for = editor.jobs.parallel_for(),
+              .cache = {.folder = cache_folder() / "ibl"},
+              .note = [&editor](const std::string& note) { log_line(editor, ui::Severity::Info, note); }}),
+      comparison(std::move(shown)),
+      scenes(editor.renderer, loader, editor.registry, comparison, {}),
+      report(scenes, editor.registry, comparison,
+             {.file = editor.sheet.file, .output = to, .renderer = editor.status.renderer}),
+      output(std::move(to)) {}
+
+void export_report(Editor& editor, const std::string& file) {
+    if (!editor.document.sheet) return;
+    try {
+        fs::path output = utf8_to_path(file);
+        require_report_name(output);
+        Comparison comparison = *editor.document.sheet;
+        comparison.camera = editor.camera;
+        const fs::path edited = editor.file.path;
+        for (const ViewPlace place : places_of(comparison)) {
+            ComparedPreset& preset = preset_at(comparison, place);
+            if (preset.preset != kEditedPreset) continue;
+            if (edited.empty() || is_dirty(editor.document, editor.file))
+                throw std::runtime_error(
+                    "The sheet shows the material that is being edited; save it first, so that "
+                    "the report can name its file.");
+            preset.preset = path_to_utf8(edited);
+        }
+        editor.sheet.report = std::make_unique<ReportWork>(editor, std::move(comparison), output);
+        say_status(editor, "Drawing the report…");
+    } catch (const std::exception& error) {
+        log_line(editor, ui::Severity::Error, error.what());
+    }
+}
+
+void step_report(Editor& editor) {
+    if (!editor.sheet.report) return;
+    ReportWork& work = *editor.sheet.report;
+    try {
+        const bool more = work.report.step();
+        say_status(editor, "Drawing the report: view " + std::to_string(work.report.done()) + " of " +
+                               std::to_string(work.report.views()) + ".");
+        if (more) return;
+        save_report(work.output, work.report.finish());
+        log_line(editor, ui::Severity::Info, "Exported " + utf8_from_path(work.output.filename()) + ".");
+    } catch (const std::exception& error) {
+        log_line(editor, ui::Severity::Error, error.what());
+    }
+    editor.sheet.report.reset();
+}
+
+}  // namespace patina

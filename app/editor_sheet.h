@@ -1,0 +1,78 @@
+// Views side by side in the editor: what they need, what the panels see of them, and their file. The
+// comparison itself is part of the document, so that it can be undone.
+#pragma once
+
+#include "app/comparison_report.h"
+#include "app/reconcile.h"
+#include "renderer/core/comparison.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+struct Editor;
+
+/// A preset that a row shows, read from its file once.
+struct SheetPreset {
+    Material material;  ///< maps by full path
+    std::string error;  ///< one sentence; the material is then the default one
+};
+
+/// A report under way: a view a step, so that the window goes on.
+struct ReportWork {
+    ReportWork(Editor& editor, Comparison shown, std::filesystem::path to);
+    ReportWork(const ReportWork&) = delete;
+    ReportWork& operator=(const ReportWork&) = delete;
+
+    SceneLoader loader;
+    Comparison comparison;
+    ComparisonScenes scenes;
+    ComparisonReport report;
+    std::filesystem::path output;
+};
+
+struct EditorSheet {
+    std::filesystem::path file;          ///< empty: never saved
+    std::optional<Comparison> saved;     ///< what the file holds
+    std::optional<Comparison> put_away;  ///< while the one view is shown
+    std::map<std::string, SheetPreset> presets;
+    std::unique_ptr<ReportWork> report;
+};
+
+/// What the panels edit in place: the document's own values, or those of the sheet's selected view.
+struct ViewBinding {
+    int selected = -1;  ///< view of the sheet; −1: the document's own
+    View view;
+    std::string environment, mesh;
+};
+ViewBinding bind_view(const Editor& editor);
+/// Takes over what changed since bind_view. all_lights: a turn of the light is every view's.
+void take_binding(Editor& editor, const ViewBinding& before, const ViewBinding& after, bool all_lights);
+
+/// Of the sheet's views, as many as are shown; empty without a sheet. Reads presets that are new.
+std::vector<WantedPicture> wanted_pictures(Editor& editor);
+/// How that view is looked at.
+View view_of_sheet(const Editor& editor, std::size_t view);
+
+void show_sheet(Editor& editor, bool shown);
+void open_sheet(Editor& editor, const std::string& file);
+void save_sheet(Editor& editor);
+bool save_sheet_as(Editor& editor, const std::string& file);
+/// False: no sheet is shown, or its selected view shows the edited material.
+bool set_sheet_preset(Editor& editor, const std::string& file);
+void set_light(Editor& editor, const std::string& environment);
+void set_mesh(Editor& editor, const std::string& mesh);
+bool sheet_unsaved(const Editor& editor);
+/// Without waiting: the sheet is about to be lost with the window. It is offered when a sheet is shown again.
+void keep_sheet(const Editor& editor);
+
+void export_report(Editor& editor, const std::string& file);
+/// One view of the report under way; does nothing without one.
+void step_report(Editor& editor);
+
+}  // namespace patina

@@ -1,0 +1,16 @@
+// Numbered pictures joined to a video by the ffmpeg program, where it is installed.
+#pragma once
+
+#include <filesystem>
+
+namespace patina {
+
+/// By the file's ending: .mp4, .webm, .mov, .gif.
+bool is_video(const std::filesystem::path& file);
+bool has_ffmpeg();
+
+/// pattern: the pictures' path with a printf number, from 1 on. 24 pictures a second. Atomic; throws
+/// std::runtime_error with one sentence that names the video.
+void join_frames(const std::filesystem::path& pattern, const std::filesystem::path& video);
+
+}  // namespace patina

@@ -1,0 +1,173 @@
+// Views side by side as a person meets them: built, turned, undone, saved, opened again.
+#include "app/comparison_file.h"
+#include "renderer/core/color_difference.h"
+#include "tests/ui/editor_harness.h"
+#include "tests/ui/panels_stage.h"
+
+#include <gtest/gtest.h>
+
+namespace patina {
+namespace {
+
+using namespace test;
+
+#define EXPECT_DRIVEN(outcome)                    \
+    do {                                          \
+        const Outcome seen = (outcome);           \
+        EXPECT_EQ(seen.status, 0) << seen.errors; \
+    } while (false)
+
+TEST(EditorSheet, is_built_turned_undone_saved_and_opened_again) {
+    const Folder home;
+    EXPECT_DRIVEN(drive(home, R"(
+wait idle
+key c
+wait idle
+expect sheet_views=2
+click sheet.view.2
+wait idle
+click sheet.add_light
+wait idle
+expect sheet_views=3
+expect sheet_selected=3
+click sheet.add_preset
+wait idle
+expect sheet_views=6
+click library.presets.Gold
+wait idle
+expect sheet_selected=6
+mark
+click sheet.view.5
+key shift+right          # turns the light of the middle column by five degrees
+wait idle
+expect sheet_rotations=0,5,0
+expect views=2           # of six views only those of that column were drawn again
+key ctrl+z
+wait idle
+expect sheet_rotations=0,0,0
+key ctrl+shift+z
+wait idle
+expect sheet_rotations=0,5,0
+click sheet.turn_all
+key shift+right
+wait idle
+expect sheet_rotations=5,10,5
+double-click sheet.view.1
+wait idle
+expect item sheet.back
+expect no item sheet.view.2
+click sheet.back
+wait idle
+expect item sheet.view.6
+click compare.title
+type metals
+click compare.save
+wait until item browser.file_name
+click browser.confirm
+wait until sheet_file~metals.json
+wait idle
+key c
+wait idle
+expect sheet_views=0
+)"));
+    const Comparison saved = load_comparison(home / "metals.json").comparison;
+    ASSERT_EQ(saved.rows.size(), 2u);
+    ASSERT_EQ(saved.columns.size(), 3u);
+    EXPECT_EQ(saved.title, "metals");
+    EXPECT_EQ(saved.rows[0].preset, kEditedPreset);
+    EXPECT_EQ(saved.rows[1].preset, "gold");
+    EXPECT_FLOAT_EQ(saved.columns[1].rotation_deg, 10.0f);
+    EXPECT_DRIVEN(drive(home, "wait idle\ndrop \"" + (home / "metals.json").string() + R"("
+wait until sheet_views=6
+wait idle
+expect sheet_rotations=5,10,5
+click sheet.remove
+wait idle
+expect sheet_views=4
+)"));
+}
+
+TEST(EditorSheet, a_missing_preset_is_said_in_its_view_and_the_others_are_drawn) {
+    const Folder home;
+    Comparison comparison;
+    comparison.rows = {{.preset = "gold"}, {.preset = (home / "none.json").string()}};
+    comparison.columns = {{.environment = "studio"}};
+    save_comparison(home / "sheet.json", comparison);
+    EXPECT_DRIVEN(drive(home, "wait idle\ndrop \"" + (home / "sheet.json").string() + R"("
+wait until sheet_views=2
+wait idle
+expect log~none.json
+expect views>1
+)"));
+}
+
+TEST(EditorSheet, a_photo_is_balanced_by_a_card_fitted_by_points_and_saved) {
+    const Folder home;
+    write_picture(home / "shot.png", 118, 118, 100);
+    EXPECT_DRIVEN(drive(home, R"(
+wait idle
+key c
+wait idle
+click sheet.view.1
+click compare.photo.choose
+wait until item browser.entry.shot.png
+click browser.entry.shot.png
+click browser.confirm
+wait idle
+expect photo_opacity=1
+expect photo_exposure=0
+expect photo_delta_e>0
+click compare.photo.grey
+wait idle
+click sheet.view.1          # the photo lies in the middle of the view
+wait idle
+expect photo_exposure!=0
+expect status~card
+click compare.photo.fit
+wait idle
+drag sheet.point.1 -12 -8
+wait idle
+click compare.photo.fit
+wait idle
+expect no item sheet.point.1
+expect undo~Photo
+click compare.photo.region
+wait idle
+drag sheet.view.1 40 40
+wait idle
+click compare.save
+wait until item browser.file_name
+click browser.confirm
+wait until sheet_file~comparison.json
+wait idle
+)"));
+    const Comparison saved = load_comparison(home / "comparison.json").comparison;
+    ASSERT_TRUE(saved.columns[0].photo);
+    const Photo& photo = *saved.columns[0].photo;
+    EXPECT_EQ(photo.file, (home / "shot.png").lexically_normal().string());
+    EXPECT_NEAR(luminance(photo.white_balance), 1.0f, 0.02f) << "exposure alone carries the brightness";
+    EXPECT_GT(photo.white_balance.z, photo.white_balance.x) << "the card was yellowish";
+    ASSERT_TRUE(photo.fit);
+    EXPECT_LT(photo.fit->photo[0].x, 0.2f);
+    EXPECT_FLOAT_EQ(photo.fit->photo[2].x, 0.8f);
+    ASSERT_TRUE(photo.region);
+    EXPECT_LT(photo.region->x0, photo.region->x1);
+    EXPECT_FALSE(saved.columns[1].photo);
+}
+
+// ---- the panels alone ----
+
+using ui::Stage;
+
+TEST(SheetPanel, offers_to_start_where_no_sheet_is_shown) {
+    Stage stage;
+    stage.ui.right_tab = "sheet";
+    stage.frames(2);
+    stage.click("compare.start");
+    const auto* asked = stage.asked<ui::request::ShowSheet>();
+    ASSERT_TRUE(asked);
+    EXPECT_TRUE(asked->shown);
+}
+
+}  // namespace
+}  // namespace patina
