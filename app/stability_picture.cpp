@@ -23,7 +23,13 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr int kSide = 48;  ///< of the probe's cells and of its picture
 
-Shading any_mode(Random& random) { return kShadings[std::size_t(random.below(int(kShadings.size())))].value; }
+/// But the reference, which is not drawn at once.
+Shading any_mode(Random& random) {
+    Shading mode = Shading::Reference;
+    while (mode == Shading::Reference)
+        mode = kShadings[std::size_t(random.below(int(kShadings.size())))].value;
+    return mode;
+}
 Shading any_energy_keeping_mode(Random& random) {
     Shading mode = any_mode(random);
     while (!keeps_energy(mode)) mode = any_mode(random);

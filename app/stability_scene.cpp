@@ -96,7 +96,7 @@ EnvironmentHandle upload_light(Stage& stage, const Environment& environment) {
     return stage.renderer().upload_environment(environment, *bake_environment(environment, settings, {}));
 }
 
-bool keeps_energy(Shading mode) { return mode != Shading::Course; }
+bool keeps_energy(Shading mode) { return mode != Shading::Course && mode != Shading::Reference; }
 
 Image drawn_radiance(Stage& stage, const Scene& scene, glm::ivec2 size) {
     const TargetHandle target = stage.renderer().make_target(size, 1, TargetPrecision::Full);

@@ -28,7 +28,8 @@ Environment any_panorama(Random& random);
 /// Baked as the renderer wants it but small: a few milliseconds.
 EnvironmentHandle upload_light(Stage& stage, const Environment& environment);
 
-/// Modes that claim to send white light back white; the lecture's does not.
+/// Modes that claim to send white light back white; the lecture's does not, and the reference is not drawn at
+/// once.
 bool keeps_energy(Shading mode);
 
 struct FurnacePixel {

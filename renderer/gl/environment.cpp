@@ -86,7 +86,6 @@ EnvironmentWriter::EnvironmentWriter(const PreparedLight& light) {
     make_levels(light.levels, environment_);
     make_irradiance(light.levels, environment_);
     environment_.lights = light.levels.lights;
-    environment_.panorama_lights = light.panorama.lights;
     check_memory("the light");
 }
 

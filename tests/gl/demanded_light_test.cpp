@@ -66,9 +66,13 @@ TEST(DemandedLight, draws_the_same_picture_as_all_light) {
 }
 
 TEST(DemandedLight, shares_the_panorama_of_light_that_is_there) {
-    const Environment environment = make_panorama(lamps_and_sky, 64);
+    // A small sun straight ahead, which the panorama keeps apart.
+    const Environment environment =
+        make_panorama([](glm::vec3 d) { return glm::vec3(d.z < -0.99995f ? 3000.0f : 0.5f); }, 512);
+    ASSERT_FALSE(make_panorama_levels(environment).lights.empty());
     BakeSettings settings;
     settings.max_face_size = 16;
+    settings.roughness = {0.5f, 1.0f};
     const BakedEnvironment baked = *bake_environment(environment, settings, {});
     EnvironmentHandle first = light_with(environment, baked);
     Scene scene = make_scene(first, nullptr);

@@ -65,7 +65,7 @@ TEST(Faults, a_save_killed_at_any_operation_leaves_the_old_or_the_new_preset) {
     EXPECT_EQ(preset_name(file), "new");
 }
 
-TEST(Faults, a_full_or_broken_disk_keeps_the_old_preset_says_so_and_leaves_nothing_behind) {
+TEST(SlowFaults, a_full_or_broken_disk_keeps_the_old_preset_says_so_and_leaves_nothing_behind) {
     const Folder folder;
     const fs::path file = folder.path / "mine.json";
     Material old;
@@ -119,7 +119,7 @@ TEST(Faults, settings_and_recovery_files_survive_a_kill_at_any_operation) {
     EXPECT_GE(orphans, 2);  // the whole one, and those killed after the rename
 }
 
-TEST(Faults, a_cache_write_that_fails_or_is_killed_is_computed_again) {
+TEST(SlowFaults, a_cache_write_that_fails_or_is_killed_is_computed_again) {
     const Folder folder;
     const std::vector<std::string> words{"light", (folder.path / "cache").string()};
     const int count = operations(folder, words);
@@ -138,7 +138,7 @@ TEST(Faults, a_cache_write_that_fails_or_is_killed_is_computed_again) {
         }
 }
 
-TEST(Faults, a_picture_is_written_whole_or_not_at_all) {
+TEST(SlowFaults, a_picture_is_written_whole_or_not_at_all) {
     const Folder folder;
     for (const std::string name : {"a.exr", "a.png"}) {
         const fs::path file = folder.path / name;
