@@ -40,6 +40,7 @@ Scene truth_scene() {
     scene.material.albedo.value = {0.5f, 0.12f, 0.08f};
     scene.material.roughness.value = 0.35f;
     scene.view.background = Background::Plain;
+    scene.view.shading = Shading::SplitSum;
     return scene;
 }
 
