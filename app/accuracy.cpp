@@ -11,7 +11,7 @@ namespace patina {
 
 namespace {
 
-constexpr double kStepSeconds = 0.03;   ///< of the reference a frame: the window answers in between
+constexpr double kStepSeconds = 0.08;   ///< of the reference a frame: the window answers in between
 constexpr int kFirstMeasurement = 256;  ///< samples that say something
 
 /// Everything a picture depends on.
