@@ -457,7 +457,7 @@ Trial flat_normal_maps(Random& random, Stage& stage) {
 
 std::vector<Property> picture_properties() {
     return {
-        {"pixel-fuzz", "no NaN, Inf or negative pixel", 0.0, 150000, pixels_are_sane},
+        {"pixel-fuzz", "no NaN, Inf or negative pixel", 0.0, 75000, pixels_are_sane},
         {"white-furnace", "white under light 1 from everywhere is 1", 2e-3, 100000, white_furnace},
         {"darker-furnace", "nothing sends back more than it receives", 2e-3, 70000, darker_furnace},
         {"exposure", "±20 EV scale the picture, relative, ½ half-float ulp", 0x1p-11, 60000, exposure_scales},
