@@ -59,7 +59,7 @@ public:
     float interface_scale() const;    ///< 1 = 96 dpi
     float framebuffer_scale() const;  ///< pixels a display unit
     glm::ivec2 framebuffer_px() const;
-    glm::ivec2 size() const;          ///< screen units
+    glm::ivec2 size() const;  ///< screen units
     bool maximized() const;
     std::string description() const;  ///< GL renderer and version
     /// Rebuilds style and fonts if the window moved to a display of another scale. True if it did.

@@ -89,15 +89,9 @@ EnvironmentHandle make_darkness() {
 }
 
 LightLayout layout_of(const GpuEnvironment& environment) {
-    return {environment.panorama_scale,
-            environment.levels_scale,
-            environment.irradiance_scale,
-            environment.texels_per_radian,
-            environment.layers,
-            environment.roughness,
-            environment.sharpest,
-            environment.lights,
-            environment.panorama_lights};
+    return {environment.panorama_scale,    environment.levels_scale, environment.irradiance_scale,
+            environment.texels_per_radian, environment.layers,       environment.roughness,
+            environment.sharpest,          environment.lights,       environment.panorama_lights};
 }
 
 Features features_for(const Scene& scene, const GpuEnvironment& environment) {
@@ -184,8 +178,7 @@ const gl::Program& Renderer::State::surface(Features features) {
 
 const gl::Program& Renderer::State::reference(Features features) {
     gl::Program& program = references[features];
-    if (!program)
-        program = compiled("mesh.vert.glsl", "reference.frag.glsl", defines_of(features));
+    if (!program) program = compiled("mesh.vert.glsl", "reference.frag.glsl", defines_of(features));
     return program;
 }
 
@@ -199,8 +192,7 @@ const gl::Program& Renderer::State::rival(Features features, int samples) {
 }
 
 const gl::Program& Renderer::State::depth_only() {
-    if (!depth)
-        depth = compiled("mesh.vert.glsl", "depth.frag.glsl", {});
+    if (!depth) depth = compiled("mesh.vert.glsl", "depth.frag.glsl", {});
     return depth;
 }
 

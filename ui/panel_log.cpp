@@ -1,4 +1,4 @@
-// The log: everything the program has said in this session, newest at the bottom.
+// The log: everything the program has said since its start, newest at the bottom.
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"

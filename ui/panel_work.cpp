@@ -24,7 +24,8 @@ void draw_row(PanelContext& context, const std::string& label, const std::string
     const float width = ImGui::CalcTextSize(number.c_str()).x;
     text_line(context, label, none ? color::kFaint : color::kMuted,
               ImGui::GetContentRegionAvail().x - width - px(26));
-    ImGui::SameLine(right - width);
+    ImGui::SameLine();
+    ImGui::SetCursorPosX(right - width);
     ImGui::PushStyleColor(ImGuiCol_Text, none ? color::kFaint : color::kText);
     ImGui::TextUnformatted(number.c_str());
     ImGui::PopStyleColor();

@@ -25,8 +25,8 @@ std::string_view image_format_id(ImageFormat format);
 struct PromisedSize {
     std::int64_t width = 0, height = 0;
 };
-/// From the headers of PNG, TGA, BMP and TIFF, whose decoders would rather complain in their own words; nothing for the
-/// others.
+/// From the headers of PNG, TGA, BMP and TIFF, whose decoders would rather complain in their own words;
+/// nothing for the others.
 std::optional<PromisedSize> promised_size(ImageFormat format, std::span<const std::byte> bytes);
 
 /// Whether a PNG carries EXIF data (camera, orientation) before its pixels. A part of the file will do.

@@ -20,8 +20,8 @@ struct GpuEnvironment {
     float irradiance_scale = 1.0f;
     float texels_per_radian = 1.0f;  ///< of the panorama
     int layers = 1;
-    std::vector<float> roughness;  ///< of each level, ascending
-    float sharpest = 1.0f;         ///< lobes sharper than this are made up from the panorama
+    std::vector<float> roughness;                 ///< of each level, ascending
+    float sharpest = 1.0f;                        ///< lobes sharper than this are made up from the panorama
     std::vector<ExtractedLight> lights;           ///< to be shaded: the levels are without them
     std::vector<ExtractedLight> panorama_lights;  ///< those the panorama's alpha holds
 };

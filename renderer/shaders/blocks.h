@@ -32,9 +32,11 @@ PATINA_BLOCK(FrameBlock) {
     vec4 level_layout;        // level count − 1, layers; roughness and alpha of lobes that need no panorama
     vec4 level_slope[PATINA_LEVEL_ROWS];  // level index = Σ clamp(log2(roughness)·slope + offset, 0, 1)
     vec4 level_offset[PATINA_LEVEL_ROWS];
-    vec4 light_direction[PATINA_MAX_LIGHTS];   // xyz world, unit; w: ¼ of its mean-square radius, added to alpha²
+    vec4 light_direction[PATINA_MAX_LIGHTS];   // xyz world, unit; w: ¼ of its mean-square radius, added to
+                                               // alpha²
     vec4 light_irradiance[PATINA_MAX_LIGHTS];  // on a surface facing it, exposed
-    vec4 counts;  // x: lights; y: debug view; z: lights whose colour the panorama needs; w: blurred backdrop's 1/∫ D·NoL
+    vec4 counts;  // x: lights; y: debug view; z: lights whose colour the panorama needs; w: blurred
+                  // backdrop's 1/∫ D·NoL
 };
 
 // A scalar parameter is dot(map, row) + its bias: the row holds ±value at the map's channel; without a map it
