@@ -59,7 +59,7 @@ Loop::Loop(const EditArgs& args, const Registry& registry)
       editor_(registry, renderer_, jobs_, with_arguments(remembered_.settings, args), args.skip),
       meter_(renderer_, jobs_) {
     if (!args.drive_script.empty())
-        drive_.emplace(load_drive(path_from_utf8(args.drive_script)), args.drive_script);
+        drive_.emplace(load_drive(utf8_to_path(args.drive_script)), args.drive_script);
     editor_.status.renderer = window_.description();
     editor_.status.version = PATINA_VERSION;
     for (const std::string& note : remembered_.notes) log_line(editor_, ui::Severity::Warning, note);
@@ -123,8 +123,8 @@ bool Loop::needs_frame() const {
            (wants_refining() && window_.time_s() - changed_s_ >= kStillSeconds) ||
            (editor_.document.sheet
                 ? sheet_is_stale()
-                : editor_.reconciler.drawable() && !(signature_of(editor_.reconciler.scene(
-                                                         editor_.camera, editor_.document.view)) == drawn_));
+                : editor_.reconciler.drawable() &&
+                      editor_.reconciler.scene(editor_.camera, editor_.document.view) != drawn_);
 }
 
 void Loop::fill_status() {

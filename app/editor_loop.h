@@ -22,20 +22,6 @@ inline constexpr int kFramesAfterEvent =
 inline constexpr double kStillSeconds =
     0.2;  ///< without a change before a quick picture is drawn again, well
 
-/// What the picture was drawn from: it is drawn again when any of this differs.
-struct Drawn {
-    EnvironmentHandle environment;
-    MeshHandle mesh;
-    std::array<MapHandle, kMapSlots> maps;
-    Material material;
-    Camera camera;
-    View view;
-    bool operator==(const Drawn&) const = default;
-};
-inline Drawn signature_of(const Scene& scene) {
-    return {scene.environment, scene.mesh, scene.maps, scene.material, scene.camera, scene.view};
-}
-
 /// The loop around an Editor: window, viewport and script.
 class Loop {
 public:
@@ -83,7 +69,7 @@ private:
     /// A picture and what it was drawn from.
     struct DrawnView {
         TargetHandle target;
-        Drawn drawn;
+        Scene drawn;
         bool has_drawn = false;
         std::uint64_t times = 0;  ///< drawn so far
     };
@@ -95,7 +81,7 @@ private:
     Pace shown_ = Pace::Good;
     double changed_s_ = 0.0;        ///< when the picture was last another one
     std::optional<double> drew_s_;  ///< when this frame's picture was begun
-    Drawn drawn_;
+    Scene drawn_;  ///< what the picture was drawn from: it is drawn again when any of this differs
     bool has_drawn_ = false;
     std::vector<DrawnView> sheet_views_;  ///< by the sheet's views
     std::vector<int> sheet_seen_;         ///< those that the last frame showed

@@ -22,7 +22,7 @@ bool Loop::sheet_is_stale() const {
         if (view >= views || view >= sheet_views_.size() || !editor_.reconciler.drawable(view)) return false;
         if (!sheet_views_[view].has_drawn) return true;
         const Scene scene = sheet_scene(view, Renderer::size_px(*sheet_views_[view].target));
-        return !(signature_of(scene) == sheet_views_[view].drawn);
+        return scene != sheet_views_[view].drawn;
     });
 }
 
@@ -39,15 +39,14 @@ void Loop::draw_sheet(const std::vector<ui::SheetSize>& seen) {
         if (!editor_.reconciler.drawable(view)) continue;
         DrawnView& shown = sheet_views_[view];
         const Scene scene = sheet_scene(view, each.size_px);
-        Drawn wanted = signature_of(scene);
         const bool resized = !shown.target || Renderer::size_px(*shown.target) != each.size_px;
-        if (!resized && shown.has_drawn && wanted == shown.drawn) continue;
+        if (!resized && shown.has_drawn && scene == shown.drawn) continue;
         if (resized) {
             shown.target = renderer_.make_target(each.size_px);
             frames_wanted_ = std::max(frames_wanted_, 1);  // this frame still shows the old one
         }
         renderer_.draw(scene, *shown.target);
-        shown.drawn = std::move(wanted);
+        shown.drawn = scene;
         shown.has_drawn = true;
         ++shown.times;
         ++views_;
@@ -80,9 +79,8 @@ void Loop::fill_sheet(ui::PanelContext& context) const {
 void Loop::draw_view(glm::ivec2 size_px) {
     if (size_px.x <= 0 || size_px.y <= 0 || !editor_.reconciler.drawable()) return;
     const Scene scene = editor_.reconciler.scene(editor_.camera, editor_.document.view);
-    Drawn wanted = signature_of(scene);
     const bool resized = size_px != size_px_;
-    const bool changed = resized || !has_drawn_ || !(wanted == drawn_);
+    const bool changed = resized || !has_drawn_ || scene != drawn_;
     const double now_s = window_.time_s();
     if (changed) changed_s_ = now_s;
     if (!changed && !(wants_refining() && now_s - changed_s_ >= kStillSeconds)) return;
@@ -98,7 +96,7 @@ void Loop::draw_view(glm::ivec2 size_px) {
     shown_ = quality;
     drew_s_ = now_s;
     renderer_.draw(scene, *target_);
-    drawn_ = std::move(wanted);
+    drawn_ = scene;
     has_drawn_ = true;
     ++views_;
 }
