@@ -43,7 +43,7 @@ struct Window::State {
     WindowEvents events;
     std::deque<KeyEvent> keys;  ///< delivered so that a key changes at most once a frame
     std::uint64_t frames = 0;
-    bool tells_loss = false;  ///< the driver can be asked whether the context is lost
+    bool tells_loss = false;                       ///< the driver can be asked whether the context is lost
     float scale = 1.0f, framebuffer_scale = 1.0f;  ///< what style and fonts were made for
     glm::vec2 mouse{-1.0f};
     std::array<bool, kMouseButtons> mouse_down{};
@@ -224,7 +224,8 @@ WindowEvents Window::take_events() { return std::exchange(state_->events, {}); }
 void Window::require_context() const {
     if (!state_->tells_loss || glGetGraphicsResetStatusARB() == GL_NO_ERROR) return;
     throw std::runtime_error(
-        "The graphics driver was reset and took the window's pictures with it: start again; changes that were "
+        "The graphics driver was reset and took the window's pictures with it: start again; changes that "
+        "were "
         "not saved are offered then.");
 }
 
