@@ -1,5 +1,6 @@
 // The split-sum table: directional albedo of GGX with height-correlated Smith, split by the Fresnel weight.
-#include "renderer/ibl/bake.h"
+#include "renderer/ibl/brdf_table.h"
+
 #include "renderer/ibl/brdf_simd.h"
 
 #include <glm/common.hpp>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace patina {
@@ -81,16 +83,16 @@ std::vector<glm::dvec2> balanced(const std::vector<glm::dvec2>& exact, int size)
     return result;
 }
 
-}  // namespace
-
-BrdfTable bake_brdf_table(int size, const ParallelFor& parallel_for) {
+/// Texel i lies at place(i) on either axis.
+BrdfTable bake_table(int size, const ParallelFor& parallel_for, const std::function<double(int)>& place) {
     assert(size >= 3);
+    constexpr double least_root = 1e-3, least_roughness = 1e-3;  // the limits at 0, short of dividing by it
     const Lattice lattice;
     std::vector<glm::dvec2> exact(std::size_t(size) * size);
     parallel_for(size, [&](int y) {
-        const double roughness = (y + 0.5) / size;
+        const double roughness = std::max(place(y), least_roughness);
         for (int x = 0; x < size; ++x) {
-            const double root = (x + 0.5) / size;
+            const double root = std::max(place(x), least_root);
             exact[std::size_t(y) * size + x] = albedo(root * root, roughness * roughness, lattice);
         }
     });
@@ -101,6 +103,16 @@ BrdfTable bake_brdf_table(int size, const ParallelFor& parallel_for) {
         table.ab.emplace_back(std::min(float(ab.x), 1.0f - bias), bias);
     }
     return table;
+}
+
+}  // namespace
+
+BrdfTable bake_brdf_table(int size, const ParallelFor& parallel_for) {
+    return bake_table(size, parallel_for, [size](int i) { return (i + 0.5) / size; });
+}
+
+BrdfTable bake_end_to_end_brdf_table(int size, const ParallelFor& parallel_for) {
+    return bake_table(size, parallel_for, [size](int i) { return double(i) / (size - 1); });
 }
 
 }  // namespace patina
