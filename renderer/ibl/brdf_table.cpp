@@ -16,15 +16,13 @@ namespace patina {
 namespace {
 
 /// Nodes on the unit square: a Fibonacci lattice (i/n, {i·f/n}), the best-spread rank-1 rule of its size, n
-/// and f consecutive Fibonacci numbers. The second coordinate is periodic (an azimuth); the first is not, so
-/// it is pulled towards both ends by u = s²(3 − 2s), whose Jacobian 6s(1 − s) vanishes there: the integrand
-/// becomes periodic in s too.
+/// and f consecutive Fibonacci numbers: A and B err by at most 1.1e-4 with 1597 nodes, 3.9e-5 with 4181. The
+/// second coordinate is periodic (an azimuth); the first is not, so it is pulled towards both ends by u =
+/// s²(3 − 2s), whose Jacobian 6s(1 − s) vanishes there: the integrand becomes periodic in s too.
 struct Lattice {
     std::vector<float> height, cos_phi, sin_phi, weight;
 
-    Lattice() {
-        constexpr int nodes = 1597;
-        constexpr int previous = 987;
+    Lattice(int nodes, int previous) {
         for (int i = 0; i < nodes || i % simd::kAlbedoNodes != 0; ++i) {
             const double s = (i + 0.5) / nodes;
             const double phi = 2.0 * std::numbers::pi * std::fmod(double(i) * previous, nodes) / nodes;
@@ -84,10 +82,10 @@ std::vector<glm::dvec2> balanced(const std::vector<glm::dvec2>& exact, int size)
 }
 
 /// Texel i lies at place(i) on either axis.
-BrdfTable bake_table(int size, const ParallelFor& parallel_for, const std::function<double(int)>& place) {
+BrdfTable bake_table(int size, const Lattice& lattice, const ParallelFor& parallel_for,
+                     const std::function<double(int)>& place) {
     assert(size >= 3);
     constexpr double least_root = 1e-3, least_roughness = 1e-3;  // the limits at 0, short of dividing by it
-    const Lattice lattice;
     std::vector<glm::dvec2> exact(std::size_t(size) * size);
     parallel_for(size, [&](int y) {
         const double roughness = std::max(place(y), least_roughness);
@@ -108,11 +106,12 @@ BrdfTable bake_table(int size, const ParallelFor& parallel_for, const std::funct
 }  // namespace
 
 BrdfTable bake_brdf_table(int size, const ParallelFor& parallel_for) {
-    return bake_table(size, parallel_for, [size](int i) { return (i + 0.5) / size; });
+    return bake_table(size, Lattice(1597, 987), parallel_for, [size](int i) { return (i + 0.5) / size; });
 }
 
 BrdfTable bake_end_to_end_brdf_table(int size, const ParallelFor& parallel_for) {
-    return bake_table(size, parallel_for, [size](int i) { return double(i) / (size - 1); });
+    return bake_table(size, Lattice(4181, 2584), parallel_for,
+                      [size](int i) { return double(i) / (size - 1); });
 }
 
 }  // namespace patina

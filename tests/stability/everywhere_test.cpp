@@ -89,7 +89,7 @@ void expect_the_same_from_another_build(std::size_t every) {
     const char* other = std::getenv("PATINA_OTHER_PROGRAM");
     if (!other) GTEST_SKIP() << "PATINA_OTHER_PROGRAM names no other build (`./patina test asan` does)";
     std::vector<Image> pictures;
-    for (const std::string& program : {std::string(PATINA_PROGRAM), other}) {
+    for (const std::string program : {PATINA_PROGRAM, other}) {
         const Folder folder;
         std::vector<std::string> words{program, "compare"};
         const std::vector<std::filesystem::path> presets = shipped_presets();
