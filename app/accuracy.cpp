@@ -16,18 +16,10 @@ constexpr int kFirstMeasurement = 256;  ///< samples that say something
 
 /// Everything a picture depends on.
 struct Signature {
-    EnvironmentHandle environment;
-    MeshHandle mesh;
-    std::array<MapHandle, kMapSlots> maps;
-    Material material;
-    Camera camera;
-    View view;
+    Scene scene;
     glm::ivec2 size{0};
     bool operator==(const Signature&) const = default;
 };
-Signature signature_of(const Scene& scene, glm::ivec2 size) {
-    return {scene.environment, scene.mesh, scene.maps, scene.material, scene.camera, scene.view, size};
-}
 
 Scene with_shading(Scene scene, Shading shading) {
     scene.view.shading = shading;
@@ -87,7 +79,7 @@ struct AccuracyMeter::State {
 void AccuracyMeter::State::draw_other(const Scene& scene, glm::ivec2 size, Shading shading) {
     Other& other = others[shading];
     const Scene shown = with_shading(scene, shading);
-    const Signature now = signature_of(shown, size);
+    const Signature now{shown, size};
     if (other.target && other.seen == now) return;
     if (!other.target || Renderer::size_px(*other.target) != size) other.target = renderer.make_target(size);
     renderer.draw(shown, *other.target);
@@ -104,7 +96,7 @@ void AccuracyMeter::State::forget_measurement() {
 
 void AccuracyMeter::State::gather(const Scene& scene, glm::ivec2 size) {
     const Scene shown = with_shading(scene, Shading::Reference);
-    const Signature now = signature_of(shown, size);
+    const Signature now{shown, size};
     if (!reference || reference->size_px() != size) {
         reference_target = renderer.make_target(size, 1, TargetPrecision::Full);
         reference = std::make_unique<Reference>(renderer, Renderer::size_px(*reference_target));
@@ -193,8 +185,7 @@ void AccuracyMeter::update(const Scene& scene, glm::ivec2 size_px, const ui::Acc
         if (layer.kind == ui::Layer::Mode && layer.mode != Shading::Reference)
             state.draw_other(scene, size_px, layer.mode);
     }
-    const bool moves =
-        held && !(state.seen == signature_of(with_shading(scene, Shading::Reference), size_px));
+    const bool moves = held && !(state.seen == Signature{with_shading(scene, Shading::Reference), size_px});
     state.wanted = reference && final_picture && !moves;
     if (!state.wanted) return;
     state.gather(scene, size_px);

@@ -1,8 +1,8 @@
 #include "app/autosave.h"
 
-#include "app/paths.h"
 #include "materials/json_text.h"
 #include "materials/material_io.h"
+#include "materials/text_io.h"
 
 #include <nlohmann/json.hpp>
 
@@ -49,7 +49,7 @@ View view_from_json(const Json& json) {
 std::string to_json(const Recovery& recovery) {
     const Document& document = recovery.document;
     const Json json{{"patina_recovery", kRecoveryVersion},
-                    {"file", utf8_from_path(recovery.file)},
+                    {"file", path_to_utf8(recovery.file)},
                     {"unix_time_s", recovery.unix_time_s},
                     {"mesh", document.mesh},
                     {"environment", document.environment},
@@ -64,7 +64,7 @@ std::optional<Recovery> parse_recovery(std::string_view text) {
         const Json json = parse_json(text, "recovery file", repeated_keys);  // of bounded depth
         if (json.value("patina_recovery", 0) != kRecoveryVersion) return std::nullopt;
         Recovery recovery;
-        recovery.file = path_from_utf8(json.value("file", std::string{}));
+        recovery.file = utf8_to_path(json.value("file", std::string{}));
         recovery.unix_time_s = json.value("unix_time_s", std::int64_t{0});
         recovery.document.mesh = json.value("mesh", recovery.document.mesh);
         recovery.document.environment = json.value("environment", recovery.document.environment);

@@ -1,5 +1,4 @@
 #include "app/autosave.h"
-#include "app/paths.h"
 #include "materials/text_io.h"
 
 #include <algorithm>
@@ -113,7 +112,7 @@ RecoveryFiles::RecoveryFiles(fs::path folder) : state_(std::make_unique<State>()
     }
     if (!state_->lock.held())
         state_->problem =
-            utf8_from_path(state_->folder) +
+            path_to_utf8(state_->folder) +
             ": cannot be written, so unsaved work is not kept for a crash; set PATINA_STATE_DIR to a "
             "folder of your own.";
 }
@@ -137,7 +136,7 @@ std::optional<RecoveryFiles::Orphan> RecoveryFiles::claim_orphan() {
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(state_->folder, ignored)) {
         const fs::path& file = entry.path();
-        const std::string name = utf8_from_path(file.filename());
+        const std::string name = path_to_utf8(file.filename());
         if (name.rfind("recovery-", 0) != 0 || file.extension() != ".json" || file == state_->file) continue;
         LockFile lock;
         if (!lock.take(lock_of(file))) continue;  // its editor lives, or another one has claimed it

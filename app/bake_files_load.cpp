@@ -1,7 +1,7 @@
 // Reading a bake back: every size, key and type is checked before it is believed.
 #include "app/bake_files.h"
-#include "app/paths.h"
 #include "materials/json_text.h"
+#include "materials/text_io.h"
 #include "renderer/core/file_io.h"
 #include "renderer/core/image_io.h"
 #include "renderer/shaders/blocks.h"
@@ -34,7 +34,7 @@ constexpr float kWideRatio = 1.5f;  ///< levels further apart are interpolated v
 /// bake.json while it is read: values by JSON pointer, and errors that say where.
 class Manifest {
 public:
-    explicit Manifest(const fs::path& file) : name_(utf8_from_path(file)) {
+    explicit Manifest(const fs::path& file) : name_(path_to_utf8(file)) {
         const std::vector<std::byte> bytes = read_file(file, kMaxJsonBytes + 1);
         if (bytes.size() > kMaxJsonBytes)
             throw std::runtime_error(name_ +
@@ -100,9 +100,9 @@ CubeMap load_strip(const Manifest& manifest, const std::string& key, const fs::p
     const double number = manifest.number(key + "/size", 1, kMaxFace);
     const int size = int(number);
     if (number != size) manifest.fail(key + "/size", "is not a whole number");
-    const fs::path file = folder / path_from_utf8(manifest.file_name(key + "/file"));
+    const fs::path file = folder / utf8_to_path(manifest.file_name(key + "/file"));
     const auto fail = [&](const std::string& what) {
-        throw std::runtime_error(utf8_from_path(file) + ": " + what + "; bake the environment again");
+        throw std::runtime_error(path_to_utf8(file) + ": " + what + "; bake the environment again");
     };
     const Image strip = load_image(file).image;
     if (strip.width != 6 * size || strip.height != size)
@@ -266,9 +266,9 @@ BakedLight load_bake(const fs::path& path) {
     light.baked.irradiance = load_strip(manifest, "/irradiance", folder);
     light.baked.lights = load_lights(manifest);
     light.environment = make_panorama(light.baked.levels.front().cube, light.baked.lights);
-    light.environment.id = utf8_from_path(path);
-    light.environment.title = utf8_from_path(fs::absolute(folder, ignored).filename());
-    complete_levels(light, utf8_from_path(path));
+    light.environment.id = path_to_utf8(path);
+    light.environment.title = path_to_utf8(fs::absolute(folder, ignored).filename());
+    complete_levels(light, path_to_utf8(path));
     return light;
 }
 

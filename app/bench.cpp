@@ -6,6 +6,7 @@
 #include "app/scene_loader.h"
 #include "app/temporary_folder.h"
 #include "materials/material_io.h"
+#include "materials/text_io.h"
 
 #include <nlohmann/json.hpp>
 
@@ -66,7 +67,7 @@ std::vector<FrameCase> frame_cases(SceneLoader& loader, const std::string& envir
     options.overrides.clear();
     for (const fs::path& preset : shipped_presets())
         if (!map_sources(load_material(preset).material, preset).empty())
-            add("split-sum, " + utf8_from_path(preset.stem()), utf8_from_path(preset));
+            add("split-sum, " + path_to_utf8(preset.stem()), path_to_utf8(preset));
     options.view.background = Background::Environment;
     add("split-sum, environment behind", "-");
     return cases;
@@ -134,8 +135,8 @@ Json bench_light(const BenchContext& context) {
              },
              [&] { load_baked(cache, key); }},
             context.repetitions());
-        std::printf("%-36s %10.1f %10.1f %10.1f\n", utf8_from_path(path_from_utf8(id).filename()).c_str(),
-                    ms[0], ms[1], ms[2]);
+        std::printf("%-36s %10.1f %10.1f %10.1f\n", path_to_utf8(utf8_to_path(id).filename()).c_str(), ms[0],
+                    ms[1], ms[2]);
         json["environments"].push_back({{"id", id},
                                         {"width", environment.width},
                                         {"height", environment.height},

@@ -1,7 +1,7 @@
 // `patina bench start`: the editor's start, cold and warm, against a bare window of the same size.
 #include "app/bench.h"
-#include "app/paths.h"
 #include "app/temporary_folder.h"
+#include "materials/text_io.h"
 #include "renderer/core/file_io.h"
 #include "renderer/core/module_io.h"
 
@@ -37,7 +37,7 @@ void set_variable(const char* name, const std::string& value) {
 #endif
 }
 
-std::string quoted(const fs::path& path) { return "\"" + utf8_from_path(path) + "\""; }
+std::string quoted(const fs::path& path) { return "\"" + path_to_utf8(path) + "\""; }
 
 /// One start of a program: from before the process to its first frame with a picture.
 struct Start {
@@ -98,9 +98,9 @@ std::vector<StartCase> start_cases(const fs::path& folder) {
 
 Json bench_start(const BenchContext& context) {
     const TemporaryFolder folder("patina-bench");
-    set_variable("PATINA_CACHE_DIR", utf8_from_path(folder.path() / "cache" / "patina"));
-    set_variable("PATINA_STATE_DIR", utf8_from_path(folder.path() / "state"));
-    set_variable("MESA_SHADER_CACHE_DIR", utf8_from_path(folder.path() / "cache" / "mesa"));
+    set_variable("PATINA_CACHE_DIR", path_to_utf8(folder.path() / "cache" / "patina"));
+    set_variable("PATINA_STATE_DIR", path_to_utf8(folder.path() / "state"));
+    set_variable("MESA_SHADER_CACHE_DIR", path_to_utf8(folder.path() / "cache" / "mesa"));
     std::vector<StartCase> cases = start_cases(folder.path());
     for (int repetition = 0; repetition < context.repetitions(); ++repetition)
         for (StartCase& each : cases) each.starts.push_back(start_once(each, folder.path()));

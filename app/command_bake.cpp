@@ -4,8 +4,8 @@
 #include "app/console.h"
 #include "app/jobs.h"
 #include "app/ktx.h"
-#include "app/paths.h"
 #include "app/stats.h"
+#include "materials/text_io.h"
 #include "renderer/core/file_io.h"
 
 #include <nlohmann/json.hpp>
@@ -31,18 +31,18 @@ public:
     explicit StagedFolder(fs::path target) : target_(std::move(target)) {
         std::error_code error;
         if (fs::exists(target_, error) && !fs::is_directory(target_, error))
-            throw std::runtime_error(utf8_from_path(target_) +
+            throw std::runtime_error(path_to_utf8(target_) +
                                      ": is a file; name a folder to write the bake into");
         if (fs::is_directory(target_, error) && !fs::is_empty(target_, error) &&
             !fs::exists(target_ / "bake.json", error))
             throw std::runtime_error(
-                utf8_from_path(target_) +
+                path_to_utf8(target_) +
                 ": holds other files; name a new folder, an empty one or an earlier bake");
         staging_ = target_;
         staging_ += ".patina-part";
         fs::remove_all(staging_, error);
         if (!fs::create_directories(staging_, error))
-            throw std::runtime_error(utf8_from_path(target_) + ": cannot be created (" + error.message() +
+            throw std::runtime_error(path_to_utf8(target_) + ": cannot be created (" + error.message() +
                                      "); choose a folder that you may write to");
     }
     ~StagedFolder() {
@@ -63,7 +63,7 @@ public:
         if (error) {
             std::error_code ignored;
             fs::rename(old, target_, ignored);
-            throw std::runtime_error(utf8_from_path(target_) + ": cannot be replaced (" + error.message() +
+            throw std::runtime_error(path_to_utf8(target_) + ": cannot be replaced (" + error.message() +
                                      ")");
         }
         fs::remove_all(old, error);
@@ -102,7 +102,7 @@ int run_bake(const BakeArgs& args, const Registry& registry) {
     const auto [environment, decode_ms] = load_timed(registry, args.environment);
     for (const std::string& note : environment.notes) say(args.environment + ": " + note);
 
-    StagedFolder folder(path_from_utf8(args.output));
+    StagedFolder folder(utf8_to_path(args.output));
     const Jobs jobs(worker_count());
     ProgressLine progress;
     const std::optional<BakedEnvironment> baked =

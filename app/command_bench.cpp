@@ -3,9 +3,9 @@
 #include "app/bench_markdown.h"
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/paths.h"
 #include "app/plot_bench.h"
 #include "app/plot_io.h"
+#include "materials/text_io.h"
 #include "renderer/core/file_io.h"
 
 #include <nlohmann/json.hpp>
@@ -57,27 +57,27 @@ int run_bench(const BenchArgs& args, const Registry& registry) {
         context.environments.push_back(item.id);
     context.environments.insert(context.environments.end(), args.environments.begin(),
                                 args.environments.end());
-    const std::filesystem::path folder = path_from_utf8(args.output.empty() ? "bench-results" : args.output);
+    const std::filesystem::path folder = utf8_to_path(args.output.empty() ? "bench-results" : args.output);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error)
-        throw std::runtime_error(utf8_from_path(folder) + ": cannot be created (" + error.message() + ")");
+        throw std::runtime_error(path_to_utf8(folder) + ": cannot be created (" + error.message() + ")");
     for (const Benchmark* benchmark : chosen(args.names)) {
         say(std::string(benchmark->name) + ": " + std::string(benchmark->description));
         const nlohmann::ordered_json result = benchmark->run(context);
         const std::string text = result.dump(2) + "\n";
         const std::filesystem::path file = folder / (std::string(benchmark->name) + ".json");
         write_file(file, std::as_bytes(std::span(text)));
-        say("wrote " + utf8_from_path(file));
+        say("wrote " + path_to_utf8(file));
         const std::string table = bench_markdown(benchmark->name, result);
         if (!table.empty()) {
             const std::filesystem::path page = folder / (std::string(benchmark->name) + ".md");
             write_file(page, std::as_bytes(std::span(table)));
-            say("wrote " + utf8_from_path(page));
+            say("wrote " + path_to_utf8(page));
         }
         for (const NamedPlot& each : bench_plots(benchmark->name, result))
             for (const std::filesystem::path& picture : save_plot(folder / each.stem, each.plot))
-                say("wrote " + utf8_from_path(picture));
+                say("wrote " + path_to_utf8(picture));
     }
     return 0;
 }

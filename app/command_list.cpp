@@ -1,7 +1,7 @@
 // patina list: what there is to name on the command line, and every part that came through the registry.
 #include "app/commands.h"
-#include "app/paths.h"
 #include "materials/material_io.h"
+#include "materials/text_io.h"
 
 #include <cstdio>
 
@@ -22,7 +22,7 @@ std::string extensions_of(const std::vector<std::string>& extensions) {
 void list_presets() {
     for (const std::filesystem::path& file : shipped_presets()) {
         const Material material = load_material(file).material;
-        row(utf8_from_path(file.stem()), material.name, material.source);
+        row(path_to_utf8(file.stem()), material.name, material.source);
     }
 }
 

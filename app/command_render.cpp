@@ -3,11 +3,11 @@
 #include "app/comparison_file.h"
 #include "app/comparison_sheet.h"
 #include "app/made_from.h"
-#include "app/paths.h"
 #include "app/sheet.h"
 #include "app/stats.h"
 #include "app/studio.h"
 #include "app/video.h"
+#include "materials/text_io.h"
 #include "renderer/core/angles.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool wants_radiance(const std::string& output) { return path_from_utf8(output).extension() == ".exr"; }
+bool wants_radiance(const std::string& output) { return utf8_to_path(output).extension() == ".exr"; }
 
 }  // namespace
 
@@ -82,7 +82,7 @@ ImageMetadata described_with(const std::string& what, const std::string& made_fr
 void render_shots(const RenderArgs& args, const Registry& registry, const fs::path& output) {
     const ImageExporter& exporter = image_exporter(registry, output);
     const std::vector<Shot> shots = missing_shots(args, output);
-    if (shots.empty()) return say(utf8_from_path(output) + " is up to date");
+    if (shots.empty()) return say(path_to_utf8(output) + " is up to date");
     Studio studio(registry, args.scene);
     Scene scene = studio.loader.scene(args.presets.front(), args.scene);
     scene.environment =
@@ -101,7 +101,7 @@ void render_shots(const RenderArgs& args, const Registry& registry, const fs::pa
 }
 
 void render_video(const RenderArgs& args, const Registry& registry) {
-    const fs::path video = path_from_utf8(args.output);
+    const fs::path video = utf8_to_path(args.output);
     if (!has_ffmpeg())
         throw std::runtime_error(args.output +
                                  ": a video needs ffmpeg, which is not installed; write numbered pictures "
@@ -118,23 +118,23 @@ void render_video(const RenderArgs& args, const Registry& registry) {
 }  // namespace
 
 int run_render(const RenderArgs& args, const Registry& registry) {
-    if (args.turntable > 0 && is_video(path_from_utf8(args.output)))
+    if (args.turntable > 0 && is_video(utf8_to_path(args.output)))
         render_video(args, registry);
     else
-        render_shots(args, registry, path_from_utf8(args.output));
+        render_shots(args, registry, utf8_to_path(args.output));
     return 0;
 }
 
 namespace {
 
 int compare_file(const RenderArgs& args, const Registry& registry) {
-    const std::filesystem::path file = path_from_utf8(args.presets.front());
-    const ImageExporter& exporter = image_exporter(registry, path_from_utf8(args.output));
+    const std::filesystem::path file = utf8_to_path(args.presets.front());
+    const ImageExporter& exporter = image_exporter(registry, utf8_to_path(args.output));
     LoadedComparison loaded = load_comparison(file);
     for (const std::string& note : loaded.notes) say(note);
     require_own_settings(args.scene, args.presets.front());
     const std::string made = args.up_to_date ? made_from(args) : std::string{};
-    if (args.up_to_date && is_up_to_date(path_from_utf8(args.output), made)) {
+    if (args.up_to_date && is_up_to_date(utf8_to_path(args.output), made)) {
         say(args.output + " is up to date");
         return 0;
     }
@@ -143,7 +143,7 @@ int compare_file(const RenderArgs& args, const Registry& registry) {
         studio, registry, loaded.comparison,
         {.cell_px = args.scene.size_px, .radiance = wants_radiance(args.output), .scene = args.scene});
     studio.progress.clear();
-    exporter.save(path_from_utf8(args.output), sheet, described_with(loaded.comparison.title, made));
+    exporter.save(utf8_to_path(args.output), sheet, described_with(loaded.comparison.title, made));
     write_stats(args.stats, studio.renderer.work());
     say("wrote " + args.output);
     return 0;
@@ -152,12 +152,12 @@ int compare_file(const RenderArgs& args, const Registry& registry) {
 }  // namespace
 
 int run_compare(const RenderArgs& args, const Registry& registry) {
-    if (args.presets.size() == 1 && is_comparison_file(path_from_utf8(args.presets.front())))
+    if (args.presets.size() == 1 && is_comparison_file(utf8_to_path(args.presets.front())))
         return compare_file(args, registry);
-    const ImageExporter& exporter = image_exporter(registry, path_from_utf8(args.output));
+    const ImageExporter& exporter = image_exporter(registry, utf8_to_path(args.output));
     const bool radiance = wants_radiance(args.output);
     const std::string made = args.up_to_date ? made_from(args) : std::string{};
-    if (args.up_to_date && is_up_to_date(path_from_utf8(args.output), made)) {
+    if (args.up_to_date && is_up_to_date(utf8_to_path(args.output), made)) {
         say(args.output + " is up to date");
         return 0;
     }
@@ -179,7 +179,7 @@ int run_compare(const RenderArgs& args, const Registry& registry) {
         }
     }
     studio.progress.clear();
-    exporter.save(path_from_utf8(args.output), sheet.image(),
+    exporter.save(utf8_to_path(args.output), sheet.image(),
                   described_with("Presets under several lightings", made));
     write_stats(args.stats, studio.renderer.work());
     say("wrote " + args.output);

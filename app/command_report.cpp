@@ -2,13 +2,13 @@
 #include "app/commands.h"
 #include "app/comparison_file.h"
 #include "app/comparison_report.h"
-#include "app/paths.h"
+#include "materials/text_io.h"
 
 namespace patina {
 
 int run_report(const ReportArgs& args, const Registry& registry) {
-    const std::filesystem::path output = path_from_utf8(args.output);
-    const std::filesystem::path file = path_from_utf8(args.comparison);
+    const std::filesystem::path output = utf8_to_path(args.output);
+    const std::filesystem::path file = utf8_to_path(args.comparison);
     require_report_name(output);
     LoadedComparison loaded = load_comparison(file);
     for (const std::string& note : loaded.notes) say(note);

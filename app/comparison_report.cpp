@@ -1,10 +1,10 @@
 #include "app/comparison_report.h"
 
-#include "app/paths.h"
 #include "app/reconcile_load.h"
 #include "app/report_pdf.h"
 #include "materials/material_io.h"
 #include "materials/params.h"
+#include "materials/text_io.h"
 #include "renderer/core/file_io.h"
 
 #include <algorithm>
@@ -179,7 +179,7 @@ ReportSection ComparisonReport::material_section(const std::string& preset, cons
     section.picture_columns = 5;
     if (!maps.pictures.empty()) section.pictures.push_back(std::move(maps));
     section.table = std::move(table);
-    if (!file.empty()) section.notes.push_back("Preset: " + utf8_from_path(file.filename()));
+    if (!file.empty()) section.notes.push_back("Preset: " + path_to_utf8(file.filename()));
     return section;
 }
 
@@ -194,7 +194,7 @@ ReportSection ComparisonReport::lights() const {
             for (const EnvironmentItem& item : source.list())
                 if (item.id == light.environment) about = item.description;
         std::vector<std::string> cells{shot.light,
-                                       utf8_from_path(path_from_utf8(light.environment).filename()),
+                                       path_to_utf8(utf8_to_path(light.environment).filename()),
                                        number(double(light.rotation_deg)) + "°",
                                        fixed("%+.2f EV", double(light.exposure_ev)),
                                        std::string(named(kTonemaps, light.tonemap).title),
@@ -228,17 +228,16 @@ std::string ComparisonReport::render_command(const Shot& shot) const {
 ReportSection ComparisonReport::making() const {
     ReportSection section{.heading = "How it was made"};
     const Shading shading = comparison_.shading;
-    section.table =
-        ReportTable{.header = {},
-                    .rows = {{"Program", "Patina " PATINA_VERSION},
-                             {"Drawn by", options_.renderer},
-                             {"Shading", std::string(named(kShadings, shading).title) + ": " +
-                                             std::string(named(kShadings, shading).tooltip)},
-                             {"Mesh", utf8_from_path(path_from_utf8(comparison_.mesh).filename())}}};
+    section.table = ReportTable{.header = {},
+                                .rows = {{"Program", "Patina " PATINA_VERSION},
+                                         {"Drawn by", options_.renderer},
+                                         {"Shading", std::string(named(kShadings, shading).title) + ": " +
+                                                         std::string(named(kShadings, shading).tooltip)},
+                                         {"Mesh", path_to_utf8(utf8_to_path(comparison_.mesh).filename())}}};
     if (!options_.file.empty()) {
-        const std::string file = quoted(utf8_from_path(options_.file.filename()));
+        const std::string file = quoted(path_to_utf8(options_.file.filename()));
         section.commands.push_back("patina report " + file + " -o " +
-                                   quoted(utf8_from_path(options_.output.filename())));
+                                   quoted(path_to_utf8(options_.output.filename())));
         section.commands.push_back("patina compare " + file + " -o sheet.png");
     }
     for (const Shot& shot : shots_) section.commands.push_back(render_command(shot));
@@ -260,7 +259,7 @@ Report ComparisonReport::finish() {
 
 void require_report_name(const fs::path& file) {
     if (file.extension() != ".html" && file.extension() != ".pdf")
-        throw std::runtime_error(utf8_from_path(file) + ": a report's name ends in .html or .pdf");
+        throw std::runtime_error(path_to_utf8(file) + ": a report's name ends in .html or .pdf");
 }
 
 void save_report(const fs::path& file, const Report& report) {

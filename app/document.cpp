@@ -1,6 +1,5 @@
 #include "app/document.h"
 
-#include "app/paths.h"
 #include "materials/material_io.h"
 #include "materials/params.h"
 #include "materials/text_io.h"
@@ -55,7 +54,7 @@ bool is_dirty(const Document& document, const DocumentFile& file) { return docum
 std::string document_title(const Document& document, const DocumentFile& file) {
     const std::string& name = document.material.name;
     if (!name.empty() && name != Material{}.name) return name;
-    return file.path.empty() ? Material{}.name : utf8_from_path(file.path.stem());
+    return file.path.empty() ? Material{}.name : path_to_utf8(file.path.stem());
 }
 
 Material with_full_map_paths(const Material& as_written, const fs::path& preset) {

@@ -1,6 +1,6 @@
 #include "app/drive.h"
-#include "app/paths.h"
 #include "materials/params.h"
+#include "materials/text_io.h"
 
 #include <array>
 #include <charconv>
@@ -82,7 +82,7 @@ struct NamedValue {
 };
 constexpr std::array kValues{
     NamedValue{"title", [](const DriveView& v) { return v.editor.status.title; }},
-    NamedValue{"file", [](const DriveView& v) { return utf8_from_path(v.editor.file.path); }},
+    NamedValue{"file", [](const DriveView& v) { return path_to_utf8(v.editor.file.path); }},
     NamedValue{"name", [](const DriveView& v) { return v.editor.document.material.name; }},
     NamedValue{"status", [](const DriveView& v) { return v.editor.status.text; }},
     NamedValue{"log", [](const DriveView& v) { return log_text(v.editor.status); }},
@@ -131,7 +131,7 @@ constexpr std::array kValues{
                    return text_of(
                        v.editor.photos.views[std::size_t(v.editor.ui.sheet_selected)].residual.delta_e);
                }},
-    NamedValue{"sheet_file", [](const DriveView& v) { return utf8_from_path(v.editor.sheet.file); }},
+    NamedValue{"sheet_file", [](const DriveView& v) { return path_to_utf8(v.editor.sheet.file); }},
     NamedValue{"sheet_rotations",
                [](const DriveView& v) {
                    std::string text;

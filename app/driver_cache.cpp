@@ -1,6 +1,6 @@
 #include "app/driver_cache.h"
 
-#include "app/paths.h"
+#include "materials/text_io.h"
 
 #include <cstdint>
 #include <cstdlib>
@@ -18,9 +18,9 @@ constexpr std::uintmax_t kEnoughBytes = std::uintmax_t{64} << 20;
 /// Where Mesa keeps it: $MESA_SHADER_CACHE_DIR, else $XDG_CACHE_HOME, else ~/.cache.
 fs::path driver_cache_folder() {
     for (const char* name : {"MESA_SHADER_CACHE_DIR", "MESA_GLSL_CACHE_DIR", "XDG_CACHE_HOME"})
-        if (const char* folder = std::getenv(name); folder && *folder) return path_from_utf8(folder);
+        if (const char* folder = std::getenv(name); folder && *folder) return utf8_to_path(folder);
     const char* home = std::getenv("HOME");
-    return home && *home ? path_from_utf8(home) / ".cache" : fs::path{};
+    return home && *home ? utf8_to_path(home) / ".cache" : fs::path{};
 }
 
 /// The disk that a folder would be made on.

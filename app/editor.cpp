@@ -1,18 +1,12 @@
 #include "app/editor.h"
 
-#include "app/accuracy.h"
-#include "app/drive.h"
-#include "app/editor_state.h"
+#include "app/editor_loop.h"
 #include "app/paths.h"
-#include "app/stats.h"
-#include "app/view_pace.h"
-#include "app/window.h"
 #include "materials/text_io.h"
 #include "renderer/core/image_io.h"
 #include "ui/workspace.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <ctime>
 #include <exception>
@@ -24,28 +18,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kSamples = 4;           ///< a pixel, of a good picture
-constexpr int kFramesAfterEvent = 3;  ///< the one that shows it, and two in which popups and layouts settle
 constexpr double kCaretSeconds = 0.3;
 constexpr double kAnimationSeconds = 1.0 / 60.0;
 
 BakeCache bake_cache() { return {.folder = cache_folder() / "ibl"}; }
-
-constexpr double kStillSeconds = 0.2;  ///< without a change before a quick picture is drawn again, well
-
-/// What the picture was drawn from: it is drawn again when any of this differs.
-struct Drawn {
-    EnvironmentHandle environment;
-    MeshHandle mesh;
-    std::array<MapHandle, kMapSlots> maps;
-    Material material;
-    Camera camera;
-    View view;
-    bool operator==(const Drawn&) const = default;
-};
-Drawn signature_of(const Scene& scene) {
-    return {scene.environment, scene.mesh, scene.maps, scene.material, scene.camera, scene.view};
-}
 
 /// What this thread has worked so far, in milliseconds; where the system does not tell, the time of day.
 double thread_work_ms() {
@@ -57,83 +33,6 @@ double thread_work_ms() {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
 }
-
-/// The loop around an Editor: window, viewport and script.
-class Loop {
-public:
-    Loop(const EditArgs& args, const Registry& registry);
-    ~Loop() { jobs_.end(); }  // before the editor that they refer to
-    Loop(const Loop&) = delete;
-    Loop& operator=(const Loop&) = delete;
-    int run();
-
-private:
-    void open_what_was_named();
-    void live();
-    void take_events();
-    void think();
-    bool needs_frame() const;
-    void frame();
-    void draw_view(glm::ivec2 size_px);
-    void draw_sheet(const std::vector<ui::SheetSize>& seen);
-    void fill_sheet(ui::PanelContext& context) const;
-    bool sheet_is_stale() const;
-    Scene sheet_scene(std::size_t view, glm::ivec2 size_px) const;
-    bool update_reconciler();
-    bool wants_refining() const { return !editor_.document.sheet && has_drawn_ && shown_ != Pace::Good; }
-    Sight sight() const;
-    void measure_view(glm::ivec2 size_px, bool held);
-    void fill_viewport(ui::Viewport& viewport) const;
-    void fill_status();
-    void fill_thumbnails();
-    void after_frame(const ui::PanelContext& context);
-    void drive();
-    double sleep_s() const;
-    bool idle() const;
-    void remember_window();
-
-    const EditArgs& args_;
-    ParsedSettings remembered_;
-    Window window_;
-    Renderer renderer_;
-    Jobs jobs_;
-    Editor editor_;
-    std::optional<Drive> drive_;
-    ui::ItemRecorder items_;
-    const Camera home_camera_;
-
-    /// A picture and what it was drawn from.
-    struct DrawnView {
-        TargetHandle target;
-        Drawn drawn;
-        bool has_drawn = false;
-        std::uint64_t times = 0;  ///< drawn so far
-    };
-    AccuracyMeter meter_;
-    TargetHandle target_;  ///< what is shown, one of targets_
-    std::array<TargetHandle, kPaces> targets_;
-    glm::ivec2 size_px_{0};  ///< of the picture on the screen
-    ViewPace pace_;
-    Pace shown_ = Pace::Good;
-    double changed_s_ = 0.0;        ///< when the picture was last another one
-    std::optional<double> drew_s_;  ///< when this frame's picture was begun
-    Drawn drawn_;
-    bool has_drawn_ = false;
-    std::vector<DrawnView> sheet_views_;  ///< by the sheet's views
-    std::vector<int> sheet_seen_;         ///< those that the last frame showed
-    std::uint64_t views_ = 0, turns_ = 0;
-    double turn_ms_ = 0.0;  ///< main-thread work of the last turn
-    int frames_wanted_ = kFramesAfterEvent;
-    bool animating_ = false;
-    bool more_uploads_ = false;
-    std::uint64_t changes_shown_ = 0, thumbnails_shown_ = 0;
-    std::vector<Jobs::Status> jobs_shown_;
-    bool pending_shown_ = false;
-    double last_frame_s_ = 0.0;
-    std::optional<ProcessMark> first_lit_frame_;
-    std::string window_title_;
-    std::optional<ui::Drop> drop_;
-};
 
 WindowOptions window_options(const EditArgs& args, const Settings& settings) {
     WindowOptions options;
@@ -150,6 +49,8 @@ Settings with_arguments(Settings settings, const EditArgs& args) {
     return settings;
 }
 
+}  // namespace
+
 Loop::Loop(const EditArgs& args, const Registry& registry)
     : args_(args),
       remembered_(load_settings(state_folder())),
@@ -158,7 +59,7 @@ Loop::Loop(const EditArgs& args, const Registry& registry)
       editor_(registry, renderer_, jobs_, with_arguments(remembered_.settings, args), args.skip),
       meter_(renderer_, jobs_) {
     if (!args.drive_script.empty())
-        drive_.emplace(load_drive(path_from_utf8(args.drive_script)), args.drive_script);
+        drive_.emplace(load_drive(utf8_to_path(args.drive_script)), args.drive_script);
     editor_.status.renderer = window_.description();
     editor_.status.version = PATINA_VERSION;
     for (const std::string& note : remembered_.notes) log_line(editor_, ui::Severity::Warning, note);
@@ -213,12 +114,6 @@ void Loop::think() {
     settle(editor_, true);
 }
 
-/// Before the first frame the view is taken to be as high as the window.
-Sight Loop::sight() const {
-    const int height = target_ ? Renderer::size_px(*target_).y : window_.framebuffer_px().y;
-    return {editor_.camera, std::max(height, 1)};
-}
-
 bool Loop::needs_frame() const {
     if (window_.minimized()) return false;
     return frames_wanted_ > 0 || animating_ || (!editor_.document.sheet && meter_.busy()) ||
@@ -228,123 +123,8 @@ bool Loop::needs_frame() const {
            (wants_refining() && window_.time_s() - changed_s_ >= kStillSeconds) ||
            (editor_.document.sheet
                 ? sheet_is_stale()
-                : editor_.reconciler.drawable() && !(signature_of(editor_.reconciler.scene(
-                                                         editor_.camera, editor_.document.view)) == drawn_));
-}
-
-Scene Loop::sheet_scene(std::size_t view, glm::ivec2 size_px) const {
-    const Camera camera = fitted_to(editor_.camera, float(size_px.x) / float(size_px.y));
-    return editor_.reconciler.scene_of(view, camera, view_of_sheet(editor_, view));
-}
-
-bool Loop::sheet_is_stale() const {
-    const std::size_t views = places_of(*editor_.document.sheet).size();
-    return std::ranges::any_of(sheet_seen_, [&](int seen) {
-        const auto view = std::size_t(seen);
-        if (view >= views || view >= sheet_views_.size() || !editor_.reconciler.drawable(view)) return false;
-        if (!sheet_views_[view].has_drawn) return true;
-        const Scene scene = sheet_scene(view, Renderer::size_px(*sheet_views_[view].target));
-        return !(signature_of(scene) == sheet_views_[view].drawn);
-    });
-}
-
-/// Only the views that are seen and changed.
-void Loop::draw_sheet(const std::vector<ui::SheetSize>& seen) {
-    sheet_seen_.clear();
-    if (!editor_.document.sheet) return sheet_views_.clear();
-    const std::size_t views = std::min(places_of(*editor_.document.sheet).size(), kMaxFurtherPictures);
-    sheet_views_.resize(views);
-    for (const ui::SheetSize& each : seen) {
-        const auto view = std::size_t(each.view);
-        if (view >= views) continue;
-        sheet_seen_.push_back(each.view);
-        if (!editor_.reconciler.drawable(view)) continue;
-        DrawnView& shown = sheet_views_[view];
-        const Scene scene = sheet_scene(view, each.size_px);
-        Drawn wanted = signature_of(scene);
-        const bool resized = !shown.target || Renderer::size_px(*shown.target) != each.size_px;
-        if (!resized && shown.has_drawn && wanted == shown.drawn) continue;
-        if (resized) {
-            shown.target = renderer_.make_target(each.size_px);
-            frames_wanted_ = std::max(frames_wanted_, 1);  // this frame still shows the old one
-        }
-        renderer_.draw(scene, *shown.target);
-        shown.drawn = std::move(wanted);
-        shown.has_drawn = true;
-        ++shown.times;
-        ++views_;
-    }
-}
-
-void Loop::fill_sheet(ui::PanelContext& context) const {
-    if (!editor_.document.sheet) return;
-    const Comparison& sheet = *editor_.document.sheet;
-    const std::vector<ViewPlace> places = places_of(sheet);
-    for (std::size_t view = 0; view < std::min(places.size(), kMaxFurtherPictures); ++view) {
-        const ComparedPreset& preset = preset_at(sheet, places[view]);
-        const auto read = editor_.sheet.presets.find(preset.preset);
-        ui::SheetCell cell{.light = lighting_title(editor_.registry, lighting_at(sheet, places[view]))};
-        if (preset.preset == kEditedPreset)
-            cell.preset = preset_title(preset, editor_.document.material) + " (edited)";
-        else if (read != editor_.sheet.presets.end())
-            cell.preset = preset_title(preset, read->second.material);
-        cell.error = read != editor_.sheet.presets.end() ? read->second.error : "";
-        if (cell.error.empty()) cell.error = editor_.reconciler.error_of(view);
-        if (view < sheet_views_.size() && sheet_views_[view].has_drawn)
-            cell.texture = Renderer::display_texture(*sheet_views_[view].target);
-        fill_photo(editor_, view, cell);
-        context.sheet_cells.push_back(std::move(cell));
-    }
-    context.sheet_file = path_to_utf8(editor_.sheet.file);
-    context.sheet_unsaved = sheet_unsaved(editor_);
-}
-
-void Loop::draw_view(glm::ivec2 size_px) {
-    if (size_px.x <= 0 || size_px.y <= 0 || !editor_.reconciler.drawable()) return;
-    const Scene scene = editor_.reconciler.scene(editor_.camera, editor_.document.view);
-    Drawn wanted = signature_of(scene);
-    const bool resized = size_px != size_px_;
-    const bool changed = resized || !has_drawn_ || !(wanted == drawn_);
-    const double now_s = window_.time_s();
-    if (changed) changed_s_ = now_s;
-    if (!changed && !(wants_refining() && now_s - changed_s_ >= kStillSeconds)) return;
-    const Pace quality = changed && has_drawn_ ? pace_.while_moving() : Pace::Good;
-    const glm::ivec2 pixels = quality == Pace::Rough ? (size_px + 1) / 2 : size_px;
-    TargetHandle& target = targets_[int(quality)];
-    if (!target || Renderer::size_px(*target) != pixels)
-        target = renderer_.make_target(pixels, quality == Pace::Good ? kSamples : 1);
-    if (target != target_)
-        frames_wanted_ = std::max(frames_wanted_, 1);  // this frame still shows the old one
-    size_px_ = size_px;
-    target_ = target;
-    shown_ = quality;
-    drew_s_ = now_s;
-    renderer_.draw(scene, *target_);
-    drawn_ = std::move(wanted);
-    has_drawn_ = true;
-    ++views_;
-}
-
-void Loop::measure_view(glm::ivec2 size_px, bool held) {
-    if (size_px.x <= 0 || size_px.y <= 0 || !editor_.reconciler.drawable()) return;
-    const bool before = meter_.busy();
-    meter_.update(editor_.reconciler.scene(editor_.camera, editor_.document.view), size_px,
-                  editor_.ui.accuracy, held);
-    if (!before && !meter_.busy()) return;
-    ++views_;
-    frames_wanted_ = std::max(frames_wanted_, 1);  // whose words say what this one shows
-}
-
-void Loop::fill_viewport(ui::Viewport& viewport) const {
-    if (target_) viewport.texture = Renderer::display_texture(*target_);
-    const auto picture = [&](ui::Layer layer) {
-        if (layer.kind == ui::Layer::View && is_reference(editor_.document.view))
-            layer = {ui::Layer::Mode, Shading::Reference};
-        return meter_.picture(layer);
-    };
-    viewport.left = picture(editor_.ui.accuracy.left);
-    viewport.right = picture(editor_.ui.accuracy.right);
-    viewport.accuracy = meter_.status();
+                : editor_.reconciler.drawable() &&
+                      editor_.reconciler.scene(editor_.camera, editor_.document.view) != drawn_);
 }
 
 void Loop::fill_status() {
@@ -364,19 +144,6 @@ void Loop::fill_status() {
     const std::string title = status.title + (status.dirty ? " •" : "") + " – Patina";
     if (title != window_title_) window_.set_title(title);
     window_title_ = title;
-}
-
-void Loop::fill_thumbnails() {
-    Thumbnails& thumbnails = editor_.thumbnails;
-    for (ui::CatalogItem& item : editor_.catalog.presets)
-        item.thumbnail = thumbnails.texture(Thumbnails::Kind::Preset, item.id);
-    for (ui::CatalogItem& item : editor_.catalog.environments)
-        item.thumbnail = thumbnails.texture(Thumbnails::Kind::Environment, item.id);
-    for (ui::CatalogItem& item : editor_.catalog.meshes)
-        item.thumbnail = thumbnails.texture(Thumbnails::Kind::Mesh, item.id);
-    if (editor_.import_sheet)
-        for (ui::ImportRow& row : editor_.import_sheet->rows)
-            row.thumbnail = thumbnails.texture(Thumbnails::Kind::Picture, row.file);
 }
 
 void Loop::frame() {
@@ -533,8 +300,6 @@ int Loop::run() {
     }
     return 0;
 }
-
-}  // namespace
 
 Editor::Editor(const Registry& parts, Renderer& gpu, Jobs& workers, Settings remembered, bool skip)
     : registry(parts),

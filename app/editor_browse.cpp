@@ -62,7 +62,7 @@ void list_folder(Editor& editor, const std::string& folder) {
     std::vector<ui::BrowserPlace> extra{{"Patina's presets", path_to_utf8(share_folder() / "presets")}};
     for (const std::string& file : editor.settings.recent) {
         const fs::path place = utf8_to_path(file).parent_path();
-        extra.push_back({utf8_from_path(place.filename()), path_to_utf8(place)});
+        extra.push_back({path_to_utf8(place.filename()), path_to_utf8(place)});
     }
     browser.places = browser_places(extra);
     if (browser.file_name.empty() && browser.purpose == ui::BrowserPurpose::SavePreset)
@@ -100,7 +100,7 @@ void export_picture(Editor& editor, const ui::request::ExportRender& request) {
         if (is_reference(editor.document.view))
             throw std::runtime_error(
                 "The reference takes its time and is saved by the command line: patina render PRESET -o " +
-                utf8_from_path(file.filename()) + " --shading reference --samples 4096.");
+                path_to_utf8(file.filename()) + " --shading reference --samples 4096.");
         const glm::ivec2 size(std::clamp(request.width, 1, kMaxPictureSide),
                               std::clamp(request.height, 1, kMaxPictureSide));
         const TargetHandle target = editor.renderer.make_target(size);
@@ -117,7 +117,7 @@ void export_picture(Editor& editor, const ui::request::ExportRender& request) {
             [&editor, &exporter, file, picture, metadata](JobContext&) -> Jobs::Done {
                 exporter.save(file, *picture, metadata);
                 return [&editor, file] {
-                    log_line(editor, ui::Severity::Info, "Exported " + utf8_from_path(file.filename()) + ".");
+                    log_line(editor, ui::Severity::Info, "Exported " + path_to_utf8(file.filename()) + ".");
                 };
             },
             [&editor](const std::string& error) { log_line(editor, ui::Severity::Error, error); });

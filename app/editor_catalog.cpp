@@ -1,5 +1,4 @@
 #include "app/editor_state.h"
-#include "app/paths.h"
 #include "app/reconcile_load.h"
 #include "materials/material_io.h"
 #include "materials/params.h"
@@ -25,7 +24,7 @@ std::string group_of(const Material& material) {
 std::vector<PresetEntry> list_presets() {
     std::vector<PresetEntry> entries;
     for (const fs::path& file : shipped_presets()) {
-        PresetEntry entry{.file = file, .title = utf8_from_path(file.stem())};
+        PresetEntry entry{.file = file, .title = path_to_utf8(file.stem())};
         try {
             const Material material = load_material(file).material;
             entry.title = material.name;
@@ -57,7 +56,7 @@ void add_opened(std::vector<ui::CatalogItem>& items, const std::vector<std::stri
     for (const std::string& file : files)
         if (!known(file))
             items.push_back({.id = file,
-                             .title = utf8_from_path(utf8_to_path(file).stem()),
+                             .title = path_to_utf8(utf8_to_path(file).stem()),
                              .description = file,
                              .group = "Opened"});
 }

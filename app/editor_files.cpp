@@ -67,7 +67,7 @@ void ask_new(Editor& editor) { ask(editor, ui::request::New{}, "start a new mate
 void ask_open(Editor& editor, const std::string& file) {
     if (is_comparison_file(utf8_to_path(file))) return open_sheet(editor, file);
     if (set_sheet_preset(editor, file)) return;
-    ask(editor, ui::request::Open{file}, "open " + utf8_from_path(utf8_to_path(file).stem()));
+    ask(editor, ui::request::Open{file}, "open " + path_to_utf8(utf8_to_path(file).stem()));
 }
 void ask_quit(Editor& editor) { ask(editor, ui::request::Quit{}, "close Patina"); }
 
@@ -103,7 +103,7 @@ bool open_file(Editor& editor, const fs::path& file) {
         if (!is_shipped(full)) remember(editor.settings.recent, path_to_utf8(full));
         const std::size_t notes = editor.status.log.size() - log_before;
         log_line(editor, notes > 0 ? ui::Severity::Warning : ui::Severity::Info,
-                 "Opened " + utf8_from_path(full.filename()) +
+                 "Opened " + path_to_utf8(full.filename()) +
                      (notes == 0   ? "."
                       : notes == 1 ? " with a note."
                                    : " with " + std::to_string(notes) + " notes."));
@@ -132,7 +132,7 @@ bool save_file(Editor& editor, const fs::path& chosen) {
         remember(editor.settings.recent, path_to_utf8(file));
         editor.thumbnails.forget(Thumbnails::Kind::Preset, path_to_utf8(file));
         editor.sheet.presets.erase(path_to_utf8(file));
-        log_line(editor, ui::Severity::Info, "Saved " + utf8_from_path(file.filename()) + ".");
+        log_line(editor, ui::Severity::Info, "Saved " + path_to_utf8(file.filename()) + ".");
         fill_catalog(editor);
     } catch (const std::exception& error) {
         log_line(editor, ui::Severity::Error, error.what());
@@ -158,7 +158,7 @@ void revert(Editor& editor) { editor.document.material = editor.file.saved; }
 
 void reread_preset(Editor& editor) {
     const fs::path file = editor.file.path;
-    const std::string name = utf8_from_path(file.filename());
+    const std::string name = path_to_utf8(file.filename());
     std::error_code ignored;
     if (!fs::exists(file, ignored)) {
         log_line(editor, ui::Severity::Warning, name + " was removed from the disk; save it to keep it.");

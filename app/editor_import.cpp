@@ -1,5 +1,4 @@
 #include "app/editor_state.h"
-#include "app/paths.h"
 #include "app/reconcile_load.h"
 #include "materials/map_naming.h"
 #include "materials/params.h"
@@ -18,7 +17,7 @@ namespace {
 constexpr std::size_t kFilesInFolder = 500;  ///< a dropped home folder is a slip of the hand
 
 std::string extension_of(const fs::path& file) {
-    std::string extension = utf8_from_path(file.extension());
+    std::string extension = path_to_utf8(file.extension());
     if (!extension.empty()) extension.erase(0, 1);
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });

@@ -1,5 +1,4 @@
 #include "app/editor_state.h"
-#include "app/paths.h"
 #include "materials/text_io.h"
 
 #include <algorithm>
@@ -72,7 +71,7 @@ void offer_recovery(Editor& editor) {
     if (!editor.orphan) return;
     const Recovery& found = editor.orphan->recovery;
     const std::string title =
-        found.file.empty() ? found.document.material.name : utf8_from_path(found.file.stem());
+        found.file.empty() ? found.document.material.name : path_to_utf8(found.file.stem());
     editor.recovery_question = {.title = title, .when = time_in_words(found.unix_time_s)};
     ++editor.changes;
 }

@@ -164,7 +164,7 @@ void open_sheet(Editor& editor, const std::string& file) {
         editor.sheet.presets.clear();
         start_sheet(editor, std::move(loaded.comparison), path);
         editor.ui.right_tab = "sheet";
-        log_line(editor, ui::Severity::Info, "Opened " + utf8_from_path(path.filename()) + ".");
+        log_line(editor, ui::Severity::Info, "Opened " + path_to_utf8(path.filename()) + ".");
         if (views > kMaxFurtherPictures)
             log_line(editor, ui::Severity::Warning,
                      "The first " + std::to_string(kMaxFurtherPictures) + " of " + std::to_string(views) +
@@ -188,7 +188,7 @@ bool save_sheet_as(Editor& editor, const std::string& chosen) {
         editor.sheet.file = file;
         editor.sheet.saved = editor.document.sheet;
         fs::remove(kept_sheet(), ignored);
-        log_line(editor, ui::Severity::Info, "Saved " + utf8_from_path(file.filename()) + ".");
+        log_line(editor, ui::Severity::Info, "Saved " + path_to_utf8(file.filename()) + ".");
         return true;
     } catch (const std::exception& error) {
         log_line(editor, ui::Severity::Error, error.what());
@@ -281,7 +281,7 @@ void step_report(Editor& editor) {
                                std::to_string(work.report.views()) + ".");
         if (more) return;
         save_report(work.output, work.report.finish());
-        log_line(editor, ui::Severity::Info, "Exported " + utf8_from_path(work.output.filename()) + ".");
+        log_line(editor, ui::Severity::Info, "Exported " + path_to_utf8(work.output.filename()) + ".");
     } catch (const std::exception& error) {
         log_line(editor, ui::Severity::Error, error.what());
     }

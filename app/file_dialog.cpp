@@ -1,6 +1,5 @@
 #include "app/file_dialog.h"
 
-#include "app/paths.h"
 #include "materials/text_io.h"
 
 #include <algorithm>
@@ -51,7 +50,7 @@ std::string when(const fs::directory_entry& entry) {
 
 ui::BrowserEntry describe(const fs::directory_entry& entry) {
     std::error_code ignored;
-    ui::BrowserEntry described{.name = utf8_from_path(entry.path().filename()),
+    ui::BrowserEntry described{.name = path_to_utf8(entry.path().filename()),
                                .path = path_to_utf8(entry.path()),
                                .is_folder = entry.is_directory(ignored),
                                .modified = when(entry)};
@@ -74,7 +73,7 @@ void add_place(std::vector<ui::BrowserPlace>& places, const std::string& title, 
 void add_media(std::vector<ui::BrowserPlace>& places, const fs::path& folder) {
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(folder, ignored))
-        add_place(places, utf8_from_path(entry.path().filename()), entry.path());
+        add_place(places, path_to_utf8(entry.path().filename()), entry.path());
 }
 
 }  // namespace
@@ -87,7 +86,7 @@ FolderListing list_files(const fs::path& folder) {
     if (listing.folder.size() > 1 && listing.folder.back() == '/') listing.folder.pop_back();
     fs::directory_iterator entry(full, failure);
     for (const fs::directory_iterator end; !failure && entry != end; entry.increment(failure)) {
-        const std::string name = utf8_from_path(entry->path().filename());
+        const std::string name = path_to_utf8(entry->path().filename());
         if (name.empty() || name[0] == '.') continue;
         listing.entries.push_back(describe(*entry));
         if (listing.entries.size() < kMaxEntries) continue;

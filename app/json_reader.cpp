@@ -17,30 +17,6 @@ namespace {
 
 constexpr std::size_t kMaxNotes = 50;
 
-/// One line, not too long, whatever the file holds.
-std::string printable(std::string_view text, std::size_t readable = 80) {
-    std::string result;
-    for (const char c : text) {
-        const bool starts_character = (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-        if (result.size() >= readable && starts_character) return result + "…";
-        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-    return result;
-}
-
-std::string type_of(const Json& json) {
-    if (json.is_object()) return "an object";
-    if (json.is_array()) return "an array of " + std::to_string(json.size());
-    if (json.is_string()) return "text";
-    if (json.is_number()) return "a number";
-    return json.dump();
-}
-
-std::string number_text(float value) {
-    std::array<char, 32> text{};
-    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
-
 }  // namespace
 
 JsonDocument::JsonDocument(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {

@@ -1,9 +1,9 @@
 #include "app/made_from.h"
 
 #include "app/comparison_file.h"
-#include "app/paths.h"
 #include "app/scene_loader.h"
 #include "materials/material_io.h"
+#include "materials/text_io.h"
 #include "renderer/core/file_io.h"
 #include "renderer/core/hash.h"
 #include "renderer/core/image_io.h"
@@ -36,7 +36,7 @@ public:
     void add_contents(const fs::path& file) { hash_ = hash_bytes(read_file(file), hash_); }
     /// An id of something built in, or a file's contents.
     void add_thing(const std::string& id) {
-        const fs::path file = path_from_utf8(id);
+        const fs::path file = utf8_to_path(id);
         std::error_code ignored;
         if (fs::is_regular_file(file, ignored))
             add_contents(file);
@@ -106,8 +106,8 @@ std::string made_from(const RenderArgs& args) {
     inputs.add("patina " PATINA_VERSION);
     add_scene(inputs, args.scene);
     for (const std::string& preset : args.presets) {
-        if (is_comparison_file(path_from_utf8(preset)))
-            add_comparison(inputs, path_from_utf8(preset));
+        if (is_comparison_file(utf8_to_path(preset)))
+            add_comparison(inputs, utf8_to_path(preset));
         else
             inputs.add_preset(preset);
     }

@@ -1,5 +1,6 @@
 #include "app/paths.h"
 
+#include "materials/text_io.h"
 #include "renderer/core/module_io.h"
 
 #include <cstdlib>
@@ -12,7 +13,7 @@ namespace {
 
 fs::path from_environment(const char* name) {
     const char* value = std::getenv(name);
-    return value && *value ? path_from_utf8(value) : fs::path{};
+    return value && *value ? utf8_to_path(value) : fs::path{};
 }
 
 /// The user's own folder for one kind of data: an override, the XDG variable, else the system's habit.
@@ -40,15 +41,6 @@ fs::path user_folder(const char* override_name, const char* xdg_name, const char
 }
 
 }  // namespace
-
-fs::path path_from_utf8(std::string_view text) {
-    return fs::path(std::u8string(reinterpret_cast<const char8_t*>(text.data()), text.size()));
-}
-
-std::string utf8_from_path(const fs::path& path) {
-    const std::u8string text = path.u8string();
-    return {reinterpret_cast<const char*>(text.data()), text.size()};
-}
 
 fs::path share_folder() {
     if (fs::path chosen = from_environment("PATINA_SHARE_DIR"); !chosen.empty()) return chosen;

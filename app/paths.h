@@ -2,8 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <string_view>
 
 namespace patina {
 
@@ -16,9 +14,5 @@ std::filesystem::path cache_folder();
 /// Things that must not be lost (recovery file, settings): PATINA_STATE_DIR, else XDG_STATE_HOME/patina,
 /// ~/.local/state/patina, ~/Library/Application Support/patina or %LOCALAPPDATA%\patina\state.
 std::filesystem::path state_folder();
-
-/// UTF-8 text ↔ path on every system.
-std::filesystem::path path_from_utf8(std::string_view text);
-std::string utf8_from_path(const std::filesystem::path& path);
 
 }  // namespace patina

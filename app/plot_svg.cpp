@@ -1,5 +1,6 @@
 // A plot's drawing as an SVG file.
 #include "app/plot_drawing.h"
+#include "app/xml_text.h"
 
 #include <array>
 #include <charconv>
@@ -26,28 +27,6 @@ std::string color(PlotColor value) {
         text += hex[channel & 15];
     }
     return text;
-}
-
-/// Text between tags or quotes; characters that XML forbids become spaces.
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-        }
-    return result;
 }
 
 std::string points(const std::vector<glm::dvec2>& list) {
@@ -93,7 +72,7 @@ Element element(const PlotText& text) {
             " x=\"" + number(text.baseline.x) + "\" y=\"" + number(text.baseline.y) + "\" font-size=\"" +
                 number(text.size) + "\" text-anchor=\"" + anchors[std::size_t(text.anchor)] + "\" fill=\"" +
                 color(text.color) + "\"",
-            escaped(text.text)};
+            xml_escaped(text.text)};
 }
 
 }  // namespace
@@ -107,11 +86,11 @@ std::string drawing_to_svg(const PlotDrawing& drawing) {
         width + "\" height=\"" + height + "\" viewBox=\"0 0 " + width + " " + height +
         "\" role=\"img\" font-family=\"Inter, 'Helvetica Neue', Arial, 'Liberation Sans', "
         "'DejaVu Sans', sans-serif\">\n<title>" +
-        escaped(drawing.title) + "</title>\n<rect width=\"" + width + "\" height=\"" + height + "\" fill=\"" +
-        color(drawing.paper) + "\"/>\n";
+        xml_escaped(drawing.title) + "</title>\n<rect width=\"" + width + "\" height=\"" + height +
+        "\" fill=\"" + color(drawing.paper) + "\"/>\n";
     for (const PlotShape& shape : drawing.shapes) {
         Element e = std::visit([](const auto& geometry) { return element(geometry); }, shape.geometry);
-        if (!shape.tip.empty()) e.content = "<title>" + escaped(shape.tip) + "</title>" + e.content;
+        if (!shape.tip.empty()) e.content = "<title>" + xml_escaped(shape.tip) + "</title>" + e.content;
         svg += "<" + e.name + e.attributes +
                (e.content.empty() ? "/>\n" : ">" + e.content + "</" + e.name + ">\n");
     }

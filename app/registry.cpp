@@ -2,6 +2,7 @@
 
 #include "app/bake_files.h"
 #include "app/paths.h"
+#include "materials/text_io.h"
 #include "renderer/core/environment_io.h"
 #include "renderer/core/mesh_io.h"
 #include "ui/workspace.h"
@@ -63,9 +64,9 @@ EnvironmentSource bake_environment_source() {
     return {.name = "bake",
             .description = "Light that patina bake has written: the folder, or bake.json in it",
             .list = [] { return std::vector<EnvironmentItem>{}; },
-            .accepts = [](const std::string& id) { return is_bake(path_from_utf8(id)); },
-            .load = [](const std::string& id) { return load_bake(path_from_utf8(id)).environment; },
-            .load_baked = [](const std::string& id) { return load_bake(path_from_utf8(id)); }};
+            .accepts = [](const std::string& id) { return is_bake(utf8_to_path(id)); },
+            .load = [](const std::string& id) { return load_bake(utf8_to_path(id)).environment; },
+            .load_baked = [](const std::string& id) { return load_bake(utf8_to_path(id)); }};
 }
 
 EnvironmentSource file_environment_source() {
@@ -73,11 +74,11 @@ EnvironmentSource file_environment_source() {
             .description = "Equirectangular pictures: Radiance .hdr, OpenEXR .exr, or any other picture",
             .list = [] { return std::vector<EnvironmentItem>{}; },
             .accepts = [](const std::string& id) { return id.find_first_of("./\\") != std::string::npos; },
-            .load = [](const std::string& id) { return load_environment_file(path_from_utf8(id)); }};
+            .load = [](const std::string& id) { return load_environment_file(utf8_to_path(id)); }};
 }
 
 std::string extension_of(const fs::path& file) {
-    std::string extension = utf8_from_path(file.extension());
+    std::string extension = path_to_utf8(file.extension());
     std::ranges::transform(extension, extension.begin(),
                            [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
     return extension.empty() ? extension : extension.substr(1);
@@ -150,11 +151,11 @@ std::vector<fs::path> shipped_presets() {
 }
 
 fs::path find_preset(const std::string& name) {
-    const fs::path file = path_from_utf8(name);
+    const fs::path file = utf8_to_path(name);
     std::error_code ignored;
     if (fs::exists(file, ignored)) return file;
     if (!file.has_parent_path() && !file.has_extension()) {
-        const fs::path shipped = share_folder() / "presets" / path_from_utf8(name + ".json");
+        const fs::path shipped = share_folder() / "presets" / utf8_to_path(name + ".json");
         if (fs::exists(shipped, ignored)) return shipped;
     }
     throw std::runtime_error(
@@ -189,13 +190,13 @@ std::string environment_title(const Registry& registry, const std::string& id) {
     for (const EnvironmentSource& source : registry.environments)
         for (const EnvironmentItem& item : source.list())
             if (item.id == id) return item.title;
-    return utf8_from_path(path_from_utf8(id).stem());
+    return path_to_utf8(utf8_to_path(id).stem());
 }
 
 Mesh load_mesh_part(const Registry& registry, const std::string& id, const std::stop_token& stop) {
     for (const MeshPart& part : registry.meshes)
         if (part.id == id) return part.make();
-    const fs::path file = path_from_utf8(id);
+    const fs::path file = utf8_to_path(id);
     if (const MeshImporter* importer = part_for(registry.mesh_importers, file))
         return importer->load(file, stop);
     std::vector<std::string> ids;
@@ -218,7 +219,7 @@ const ImageExporter& image_exporter(const Registry& registry, const fs::path& fi
     std::vector<std::string> extensions;
     for (const ImageExporter& each : registry.image_exporters)
         for (const std::string& extension : each.extensions) extensions.push_back("." + extension);
-    throw std::runtime_error(utf8_from_path(file) + ": a picture's name ends in " + either(extensions));
+    throw std::runtime_error(path_to_utf8(file) + ": a picture's name ends in " + either(extensions));
 }
 
 }  // namespace patina

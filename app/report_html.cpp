@@ -1,4 +1,5 @@
 #include "app/report.h"
+#include "app/xml_text.h"
 
 #include <algorithm>
 #include <cassert>
@@ -52,40 +53,19 @@ footer { margin-top: 3em; font-size: .82em; color: #77777d; }
   * { -webkit-print-color-adjust: exact; print-color-adjust: exact; } }
 )";
 
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += c;
-        }
-    return result;
-}
-
 std::string element(std::string_view tag, std::string_view text) {
     const std::string name(tag.substr(0, tag.find(' ')));
-    return "<" + std::string(tag) + ">" + escaped(text) + "</" + name + ">\n";
+    return "<" + std::string(tag) + ">" + xml_escaped(text) + "</" + name + ">\n";
 }
 
 void write_picture(std::string& html, const ReportPicture& picture) {
     html += "<figure>";
     if (!picture.image.empty())
-        html += "<img alt=\"" + escaped(picture.caption) + "\" width=\"" +
+        html += "<img alt=\"" + xml_escaped(picture.caption) + "\" width=\"" +
                 std::to_string(picture.image.width) + "\" height=\"" + std::to_string(picture.image.height) +
                 "\" style=\"height:auto\" src=\"data:image/png;base64," + base64(png_bytes(picture.image)) +
                 "\">";
-    if (!picture.caption.empty()) html += "<figcaption>" + escaped(picture.caption) + "</figcaption>";
+    if (!picture.caption.empty()) html += "<figcaption>" + xml_escaped(picture.caption) + "</figcaption>";
     html += "</figure>\n";
 }
 
@@ -106,7 +86,7 @@ void write_table(std::string& html, const ReportTable& table) {
     const auto row = [&](std::string_view tag, const std::vector<std::string>& cells) {
         html += "<tr>";
         for (const std::string& cell : cells)
-            html += "<" + std::string(tag) + ">" + escaped(cell) + "</" + std::string(tag) + ">";
+            html += "<" + std::string(tag) + ">" + xml_escaped(cell) + "</" + std::string(tag) + ">";
         html += "</tr>\n";
     };
     html += "<table>\n";
@@ -162,7 +142,7 @@ std::string to_html(const Report& report) {
         for (const std::string& note : section.notes) html += element("p class=\"note\"", note);
         if (!section.commands.empty()) {
             html += "<pre>";
-            for (const std::string& command : section.commands) html += escaped(command) + "\n";
+            for (const std::string& command : section.commands) html += xml_escaped(command) + "\n";
             html += "</pre>\n";
         }
         html += "</section>\n";

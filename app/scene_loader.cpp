@@ -1,9 +1,9 @@
 #include "app/scene_loader.h"
 
-#include "app/paths.h"
 #include "app/stats.h"
 #include "materials/material_io.h"
 #include "materials/params.h"
+#include "materials/text_io.h"
 
 #include <stdexcept>
 
@@ -96,12 +96,12 @@ SceneLoader::LoadedMesh& SceneLoader::loaded_mesh(const std::string& id, bool wi
 
 const SceneLoader::Map& SceneLoader::map(const MapSource& source, const std::string& preset, int side) {
     const int slot = options_.skip ? -1 : int(source.slot);
-    Map& map = maps_[{utf8_from_path(source.file), source.kind, source.color_space, slot}];
+    Map& map = maps_[{path_to_utf8(source.file), source.kind, source.color_space, slot}];
     if (map.handle && (map.side == 0 || (side > 0 && map.side >= side))) {
         ++renderer_.work().maps_from_memory;
         return map;
     }
-    options_.progress("loading " + utf8_from_path(source.file.filename()), 0.0f);
+    options_.progress("loading " + path_to_utf8(source.file.filename()), 0.0f);
     LoadedImage loaded;
     try {
         loaded = load_map(registry_, source);

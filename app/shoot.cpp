@@ -1,6 +1,6 @@
 #include "app/shoot.h"
 
-#include "app/paths.h"
+#include "materials/text_io.h"
 #include "renderer/core/image_io.h"
 
 #include <algorithm>
@@ -83,7 +83,7 @@ Image reduced(Image image, int max_side) {
 }  // namespace
 
 LoadedPhoto load_photo(const Registry& registry, const std::string& file) {
-    const std::filesystem::path path = path_from_utf8(file);
+    const std::filesystem::path path = utf8_to_path(file);
     LoadedImage loaded = import_image(registry, path);
     return {.linear = reduced(linear_photo(loaded.image), kPhotoPx),
             .exif = exif_of(load_image_metadata(path)),
@@ -162,7 +162,7 @@ std::string lighting_title(const Registry& registry, const Lighting& lighting) {
     return title;
 }
 std::string photo_title(const Photo& photo) {
-    return photo.title.empty() ? utf8_from_path(path_from_utf8(photo.file).filename()) : photo.title;
+    return photo.title.empty() ? path_to_utf8(utf8_to_path(photo.file).filename()) : photo.title;
 }
 
 }  // namespace patina

@@ -1,6 +1,6 @@
 #include "app/stats.h"
 
-#include "app/paths.h"
+#include "materials/text_io.h"
 #include "renderer/core/file_io.h"
 
 #include <nlohmann/json.hpp>
@@ -103,7 +103,7 @@ void write_stats(const std::string& file, const WorkLedger& work,
                                    {"cpu_s", first_lit_frame->cpu_s},
                                    {"peak_memory_bytes", first_lit_frame->peak_memory_bytes}};
     const std::string text = json.dump(2) + "\n";
-    write_file(path_from_utf8(file), std::as_bytes(std::span(text)));
+    write_file(utf8_to_path(file), std::as_bytes(std::span(text)));
 }
 
 double process_cpu_s() { return double(std::clock()) / double(CLOCKS_PER_SEC); }

@@ -1,6 +1,6 @@
 #include "app/video.h"
 
-#include "app/paths.h"
+#include "materials/text_io.h"
 
 #include <algorithm>
 #include <array>
@@ -70,7 +70,7 @@ void join_frames(const fs::path& pattern, const fs::path& video) {
     if (status == 0 && !failure) return;
     fs::remove(unfinished, failure);
     throw std::runtime_error(
-        utf8_from_path(video) +
+        path_to_utf8(video) +
         ": ffmpeg could not write the video; write numbered pictures instead (-o turn.png)");
 }
 

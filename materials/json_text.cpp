@@ -333,4 +333,30 @@ std::string pointer_to(const std::string& parent, std::string_view key) {
     return text;
 }
 
+std::string printable(std::string_view text, std::size_t readable) {
+    std::string result;
+    for (const char c : text) {
+        const bool starts_character = (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+        if (result.size() >= readable && starts_character) return result + "…";
+        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+    return result;
+}
+
+std::string type_of(const Json& json) {
+    if (json.is_object()) return "an object";
+    if (json.is_array()) return "an array of " + std::to_string(json.size());
+    if (json.is_string()) return "text";
+    if (json.is_number()) return "a number";
+    return json.dump();
+}
+
+template <class Number>
+static std::string shortest_text(Number value) {
+    std::array<char, 32> text{};
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+std::string number_text(double value) { return shortest_text(value); }
+std::string number_text(float value) { return shortest_text(value); }
+
 }  // namespace patina

@@ -38,4 +38,14 @@ std::string to_text(const nlohmann::ordered_json& json);
 /// A pointer's text with one more key; '~' and '/' are escaped.
 std::string pointer_to(const std::string& parent, std::string_view key);
 
+// Words for messages about a file.
+
+/// One line of at most about `readable` bytes, cut between characters, whatever the file holds.
+std::string printable(std::string_view text, std::size_t readable = 80);
+/// "an object", "an array of 3", "text", "a number", "true", "null".
+std::string type_of(const nlohmann::ordered_json& json);
+/// The shortest text that reads back the same number.
+std::string number_text(double value);
+std::string number_text(float value);
+
 }  // namespace patina

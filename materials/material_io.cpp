@@ -52,32 +52,6 @@ std::string lower(std::string_view text) {
     return result;
 }
 
-/// One line, not too long, whatever the file holds.
-std::string printable(std::string_view text) {
-    static constexpr std::size_t readable = 80;
-    std::string result;
-    for (const char c : text) {
-        const bool starts_character = (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-        if (result.size() >= readable && starts_character) return result + "…";
-        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-    return result;
-}
-
-std::string type_of(const Json& json) {
-    if (json.is_object()) return "an object";
-    if (json.is_array())
-        return json.size() == 1 ? "an array of 1" : "an array of " + std::to_string(json.size());
-    if (json.is_string()) return "text";
-    if (json.is_number()) return "a number";
-    return json.dump();
-}
-
-std::string number_text(double value) {
-    std::array<char, 32> text{};
-    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
-
 /// The double with the digits of the shortest text that reads back the same float.
 Json shortest(float value) {
     std::array<char, 32> text{};

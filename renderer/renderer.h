@@ -44,6 +44,7 @@ struct Scene {
     Material material;
     Camera camera;
     View view;
+    bool operator==(const Scene&) const = default;  ///< the same picture
 };
 
 /// Where a picture is drawn: linear radiance and the display picture (8-bit sRGB-encoded).

@@ -2,6 +2,7 @@
 
 #include "renderer/gl/half.h"
 #include "renderer/gl/panorama.h"
+#include "renderer/ibl/cube.h"
 
 #include <glm/common.hpp>
 
@@ -29,39 +30,6 @@ std::vector<std::uint16_t> to_halves(const CubeMap& cube, int exponent) {
         rgba[4 * i + 3] = to_half(1.0f);
     }
     return rgba;
-}
-
-struct FacePoint {
-    int face = 0;
-    float s = 0.0f;  ///< −1…1 along the row
-    float t = 0.0f;  ///< −1…1 down the column
-};
-
-/// OpenGL's table of cube faces (specification, "Cube Map Texture Selection").
-FacePoint face_point(glm::vec3 d) {
-    const glm::vec3 a = glm::abs(d);
-    if (a.x >= a.y && a.x >= a.z)
-        return d.x > 0.0f ? FacePoint{0, -d.z / a.x, -d.y / a.x} : FacePoint{1, d.z / a.x, -d.y / a.x};
-    if (a.y >= a.z)
-        return d.y > 0.0f ? FacePoint{2, d.x / a.y, d.z / a.y} : FacePoint{3, d.x / a.y, -d.z / a.y};
-    return d.z > 0.0f ? FacePoint{4, d.x / a.z, -d.y / a.z} : FacePoint{5, -d.x / a.z, -d.y / a.z};
-}
-
-glm::vec3 face_direction(FacePoint p) {
-    switch (p.face) {
-        case 0:
-            return {1.0f, -p.t, -p.s};
-        case 1:
-            return {-1.0f, -p.t, p.s};
-        case 2:
-            return {p.s, 1.0f, p.t};
-        case 3:
-            return {p.s, -1.0f, -p.t};
-        case 4:
-            return {p.s, -p.t, 1.0f};
-        default:
-            return {-p.s, -p.t, -1.0f};
-    }
 }
 
 /// The texel at x, y of a face; one step over an edge it is the neighbouring face's border texel.

@@ -1,6 +1,7 @@
 #include "renderer/gl/reference.h"
 
 #include "renderer/gl/program.h"
+#include "renderer/gl/read_state.h"
 #include "renderer/gl/texture.h"
 
 #include <glm/geometric.hpp>
@@ -35,29 +36,6 @@ void require_complete(glm::ivec2 size) {
                              std::to_string(size.x) + "×" + std::to_string(size.y) +
                              " in 32-bit floats: choose a smaller size.");
 }
-
-/// glGetTexImage's answer laid out without gaps, whatever others set.
-class PackTightly {
-public:
-    PackTightly() {
-        glGetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &buffer_);
-        glGetIntegerv(GL_PACK_ALIGNMENT, &alignment_);
-        glGetIntegerv(GL_PACK_ROW_LENGTH, &row_length_);
-        glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-        glPixelStorei(GL_PACK_ALIGNMENT, 1);
-        glPixelStorei(GL_PACK_ROW_LENGTH, 0);
-    }
-    ~PackTightly() {
-        glBindBuffer(GL_PIXEL_PACK_BUFFER, GLuint(buffer_));
-        glPixelStorei(GL_PACK_ALIGNMENT, alignment_);
-        glPixelStorei(GL_PACK_ROW_LENGTH, row_length_);
-    }
-    PackTightly(const PackTightly&) = delete;
-    PackTightly& operator=(const PackTightly&) = delete;
-
-private:
-    GLint buffer_ = 0, alignment_ = 4, row_length_ = 0;
-};
 
 }  // namespace
 
@@ -174,7 +152,7 @@ void write_reference_mean(const ReferenceTarget& target, float weight, const Ren
 }
 
 std::vector<float> read_replicates(const ReferenceTarget& target) {
-    const PackTightly pack;
+    const KeepReadState pack;
     std::vector<float> values(std::size_t(target.size.x) * target.size.y * ReferenceTarget::kReplicates);
     glBindTexture(GL_TEXTURE_2D_ARRAY, target.replicates.name());
     glGetTexImage(GL_TEXTURE_2D_ARRAY, 0, GL_RED, GL_FLOAT, values.data());
@@ -198,7 +176,7 @@ double GpuTimer::milliseconds() const {
 
 PanoramaTexels read_panorama(const GpuEnvironment& environment) {
     const KeepTextureBindings keep;
-    const PackTightly pack;
+    const KeepReadState pack;
     PanoramaTexels texels;
     glBindTexture(GL_TEXTURE_2D, environment.panorama->name());
     glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &texels.width);

@@ -1,5 +1,6 @@
 #include "renderer/gl/target.h"
 
+#include "renderer/gl/read_state.h"
 #include "renderer/gl/texture.h"
 
 #include <glm/common.hpp>
@@ -82,29 +83,6 @@ void make_display(RenderTarget& target) {
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.display.name(), 0);
     require_complete(target);
 }
-
-/// Sets what glReadPixels depends on and puts it back.
-class KeepReadState {
-public:
-    KeepReadState() {
-        glGetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &buffer_);
-        glGetIntegerv(GL_PACK_ALIGNMENT, &alignment_);
-        glGetIntegerv(GL_PACK_ROW_LENGTH, &row_length_);
-        glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-        glPixelStorei(GL_PACK_ALIGNMENT, 1);
-        glPixelStorei(GL_PACK_ROW_LENGTH, 0);
-    }
-    ~KeepReadState() {
-        glBindBuffer(GL_PIXEL_PACK_BUFFER, GLuint(buffer_));
-        glPixelStorei(GL_PACK_ALIGNMENT, alignment_);
-        glPixelStorei(GL_PACK_ROW_LENGTH, row_length_);
-    }
-    KeepReadState(const KeepReadState&) = delete;
-    KeepReadState& operator=(const KeepReadState&) = delete;
-
-private:
-    GLint buffer_ = 0, alignment_ = 4, row_length_ = 0;
-};
 
 /// Radiance and coverage of the whole picture, bottom row first; multisampled ones are averaged by the
 /// driver.

@@ -1,4 +1,5 @@
-// Geometry of cube map texels.
+#include "renderer/ibl/cube.h"
+
 #include "renderer/ibl/bake.h"
 
 #include <glm/geometric.hpp>
@@ -20,21 +21,7 @@ glm::vec3 cube_texel_direction(int size, int face, int x, int y) {
     const double s = (2.0 * x + 1.0) / size - 1.0;
     const double t = (2.0 * y + 1.0) / size - 1.0;
     const double inverse_length = 1.0 / std::sqrt(1.0 + s * s + t * t);
-    // OpenGL 4.1 core specification, table 3.19: the major axis and the signs of s and t on each face.
-    switch (face) {
-        case 0:
-            return glm::dvec3(1.0, -t, -s) * inverse_length;
-        case 1:
-            return glm::dvec3(-1.0, -t, s) * inverse_length;
-        case 2:
-            return glm::dvec3(s, 1.0, t) * inverse_length;
-        case 3:
-            return glm::dvec3(s, -1.0, -t) * inverse_length;
-        case 4:
-            return glm::dvec3(s, -t, 1.0) * inverse_length;
-        default:
-            return glm::dvec3(-s, -t, -1.0) * inverse_length;
-    }
+    return face_direction(face, s, t) * inverse_length;
 }
 
 double cube_texel_solid_angle(int size, int x, int y) {

@@ -1,5 +1,7 @@
 #include "renderer/ibl/sampling.h"
 
+#include "renderer/ibl/cube.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -8,36 +10,6 @@
 
 namespace patina {
 namespace {
-
-struct FacePoint {
-    int face;
-    float s, t;  ///< −1…1 on the face
-};
-
-FacePoint face_point(glm::vec3 d) {
-    const glm::vec3 a = glm::abs(d);
-    if (a.x >= a.y && a.x >= a.z) return {d.x > 0 ? 0 : 1, (d.x > 0 ? -d.z : d.z) / a.x, -d.y / a.x};
-    if (a.y >= a.z) return {d.y > 0 ? 2 : 3, d.x / a.y, (d.y > 0 ? d.z : -d.z) / a.y};
-    return {d.z > 0 ? 4 : 5, (d.z > 0 ? d.x : -d.x) / a.z, -d.y / a.z};
-}
-
-/// Direction through any point of a face's plane, also outside the face.
-glm::vec3 plane_direction(int face, float s, float t) {
-    switch (face) {
-        case 0:
-            return {1, -t, -s};
-        case 1:
-            return {-1, -t, s};
-        case 2:
-            return {s, 1, t};
-        case 3:
-            return {s, -1, -t};
-        case 4:
-            return {s, -t, 1};
-        default:
-            return {-s, -t, -1};
-    }
-}
 
 /// A right-handed frame around N (Duff et al. 2017).
 void make_frame(glm::vec3 N, glm::vec3& T, glm::vec3& B) {
@@ -113,8 +85,8 @@ CubePyramid::CubePyramid(const Environment& environment, int face_size, const Pa
 void CubePyramid::fill_border(Level& level) {
     const int n = level.size;
     const auto neighbour = [&](int face, int x, int y) {
-        const FacePoint p = face_point(plane_direction(face, (2.0f * float(x) + 1.0f) / float(n) - 1.0f,
-                                                       (2.0f * float(y) + 1.0f) / float(n) - 1.0f));
+        const FacePoint p = face_point(face_direction(face, (2.0f * float(x) + 1.0f) / float(n) - 1.0f,
+                                                      (2.0f * float(y) + 1.0f) / float(n) - 1.0f));
         const int nx = std::clamp(int((p.s * 0.5f + 0.5f) * float(n)), 0, n - 1);
         const int ny = std::clamp(int((p.t * 0.5f + 0.5f) * float(n)), 0, n - 1);
         return level.texels[level.at(p.face, nx, ny)];

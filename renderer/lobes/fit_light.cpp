@@ -1,6 +1,7 @@
 #include "renderer/lobes/fit_light.h"
 
 #include "renderer/brdf.h"
+#include "renderer/ibl/cube.h"
 #include "renderer/ibl/lights.h"
 #include "renderer/ibl/sampling.h"
 
@@ -16,38 +17,6 @@ namespace patina::lobes {
 namespace {
 
 constexpr int kSplit = 3;  ///< a light's texel is split kSplit × kSplit
-
-struct FacePoint {
-    int face = 0;
-    float s = 0.0f;  ///< −1…1
-    float t = 0.0f;
-};
-
-FacePoint face_point(glm::vec3 d) {
-    const glm::vec3 a = glm::abs(d);
-    if (a.x >= a.y && a.x >= a.z)
-        return d.x > 0.0f ? FacePoint{0, -d.z / a.x, -d.y / a.x} : FacePoint{1, d.z / a.x, -d.y / a.x};
-    if (a.y >= a.z)
-        return d.y > 0.0f ? FacePoint{2, d.x / a.y, d.z / a.y} : FacePoint{3, d.x / a.y, -d.z / a.y};
-    return d.z > 0.0f ? FacePoint{4, d.x / a.z, -d.y / a.z} : FacePoint{5, -d.x / a.z, -d.y / a.z};
-}
-
-glm::vec3 face_direction(FacePoint p) {
-    switch (p.face) {
-        case 0:
-            return {1.0f, -p.t, -p.s};
-        case 1:
-            return {-1.0f, -p.t, p.s};
-        case 2:
-            return {p.s, 1.0f, p.t};
-        case 3:
-            return {p.s, -1.0f, -p.t};
-        case 4:
-            return {p.s, -p.t, 1.0f};
-        default:
-            return {-p.s, -p.t, -1.0f};
-    }
-}
 
 void put(LaneCube& cube, const CubeMap& source, int lane, float scale) {
     for (int row = 0; row < 6 * source.size; ++row)

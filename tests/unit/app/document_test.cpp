@@ -1,6 +1,6 @@
 #include "app/document.h"
 
-#include "app/paths.h"
+#include "materials/text_io.h"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ TEST(Document, names_maps_by_full_path_and_back_to_the_very_text_of_the_file) {
          {"maps/a.png", "./maps/a.png", "../shared/a.png", "/elsewhere/a.png", "maps//a.png"}) {
         const Material written = with_map(text);
         const Material full = with_full_map_paths(written, preset);
-        EXPECT_TRUE(path_from_utf8(full.albedo.map).is_absolute()) << text;
+        EXPECT_TRUE(utf8_to_path(full.albedo.map).is_absolute()) << text;
         EXPECT_EQ(with_preset_map_paths(full, preset, written).albedo.map, text);
     }
     EXPECT_EQ(with_full_map_paths(with_map("../shared/a.png"), preset).albedo.map, "/presets/shared/a.png");
@@ -60,7 +60,7 @@ TEST(Document, names_maps_relative_to_the_folder_it_is_saved_in) {
 
 TEST(Document, is_called_after_its_material_or_else_after_its_file) {
     Document document;
-    const DocumentFile file{.path = path_from_utf8("/presets/größe.json")};
+    const DocumentFile file{.path = utf8_to_path("/presets/größe.json")};
     EXPECT_EQ(document_title(document, {}), "Untitled");
     EXPECT_EQ(document_title(document, file), "größe");
     document.material.name = "Rust";

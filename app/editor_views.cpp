@@ -1,0 +1,145 @@
+#include "app/editor_loop.h"
+#include "materials/text_io.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace patina {
+
+namespace {
+constexpr int kSamples = 4;  ///< a pixel, of a good picture
+}
+
+Scene Loop::sheet_scene(std::size_t view, glm::ivec2 size_px) const {
+    const Camera camera = fitted_to(editor_.camera, float(size_px.x) / float(size_px.y));
+    return editor_.reconciler.scene_of(view, camera, view_of_sheet(editor_, view));
+}
+
+bool Loop::sheet_is_stale() const {
+    const std::size_t views = places_of(*editor_.document.sheet).size();
+    return std::ranges::any_of(sheet_seen_, [&](int seen) {
+        const auto view = std::size_t(seen);
+        if (view >= views || view >= sheet_views_.size() || !editor_.reconciler.drawable(view)) return false;
+        if (!sheet_views_[view].has_drawn) return true;
+        const Scene scene = sheet_scene(view, Renderer::size_px(*sheet_views_[view].target));
+        return scene != sheet_views_[view].drawn;
+    });
+}
+
+/// Only the views that are seen and changed.
+void Loop::draw_sheet(const std::vector<ui::SheetSize>& seen) {
+    sheet_seen_.clear();
+    if (!editor_.document.sheet) return sheet_views_.clear();
+    const std::size_t views = std::min(places_of(*editor_.document.sheet).size(), kMaxFurtherPictures);
+    sheet_views_.resize(views);
+    for (const ui::SheetSize& each : seen) {
+        const auto view = std::size_t(each.view);
+        if (view >= views) continue;
+        sheet_seen_.push_back(each.view);
+        if (!editor_.reconciler.drawable(view)) continue;
+        DrawnView& shown = sheet_views_[view];
+        const Scene scene = sheet_scene(view, each.size_px);
+        const bool resized = !shown.target || Renderer::size_px(*shown.target) != each.size_px;
+        if (!resized && shown.has_drawn && scene == shown.drawn) continue;
+        if (resized) {
+            shown.target = renderer_.make_target(each.size_px);
+            frames_wanted_ = std::max(frames_wanted_, 1);  // this frame still shows the old one
+        }
+        renderer_.draw(scene, *shown.target);
+        shown.drawn = scene;
+        shown.has_drawn = true;
+        ++shown.times;
+        ++views_;
+    }
+}
+
+void Loop::fill_sheet(ui::PanelContext& context) const {
+    if (!editor_.document.sheet) return;
+    const Comparison& sheet = *editor_.document.sheet;
+    const std::vector<ViewPlace> places = places_of(sheet);
+    for (std::size_t view = 0; view < std::min(places.size(), kMaxFurtherPictures); ++view) {
+        const ComparedPreset& preset = preset_at(sheet, places[view]);
+        const auto read = editor_.sheet.presets.find(preset.preset);
+        ui::SheetCell cell{.light = lighting_title(editor_.registry, lighting_at(sheet, places[view]))};
+        if (preset.preset == kEditedPreset)
+            cell.preset = preset_title(preset, editor_.document.material) + " (edited)";
+        else if (read != editor_.sheet.presets.end())
+            cell.preset = preset_title(preset, read->second.material);
+        cell.error = read != editor_.sheet.presets.end() ? read->second.error : "";
+        if (cell.error.empty()) cell.error = editor_.reconciler.error_of(view);
+        if (view < sheet_views_.size() && sheet_views_[view].has_drawn)
+            cell.texture = Renderer::display_texture(*sheet_views_[view].target);
+        fill_photo(editor_, view, cell);
+        context.sheet_cells.push_back(std::move(cell));
+    }
+    context.sheet_file = path_to_utf8(editor_.sheet.file);
+    context.sheet_unsaved = sheet_unsaved(editor_);
+}
+
+void Loop::draw_view(glm::ivec2 size_px) {
+    if (size_px.x <= 0 || size_px.y <= 0 || !editor_.reconciler.drawable()) return;
+    const Scene scene = editor_.reconciler.scene(editor_.camera, editor_.document.view);
+    const bool resized = size_px != size_px_;
+    const bool changed = resized || !has_drawn_ || scene != drawn_;
+    const double now_s = window_.time_s();
+    if (changed) changed_s_ = now_s;
+    if (!changed && !(wants_refining() && now_s - changed_s_ >= kStillSeconds)) return;
+    const Pace quality = changed && has_drawn_ ? pace_.while_moving() : Pace::Good;
+    const glm::ivec2 pixels = quality == Pace::Rough ? (size_px + 1) / 2 : size_px;
+    TargetHandle& target = targets_[int(quality)];
+    if (!target || Renderer::size_px(*target) != pixels)
+        target = renderer_.make_target(pixels, quality == Pace::Good ? kSamples : 1);
+    if (target != target_)
+        frames_wanted_ = std::max(frames_wanted_, 1);  // this frame still shows the old one
+    size_px_ = size_px;
+    target_ = target;
+    shown_ = quality;
+    drew_s_ = now_s;
+    renderer_.draw(scene, *target_);
+    drawn_ = scene;
+    has_drawn_ = true;
+    ++views_;
+}
+
+void Loop::measure_view(glm::ivec2 size_px, bool held) {
+    if (size_px.x <= 0 || size_px.y <= 0 || !editor_.reconciler.drawable()) return;
+    const bool before = meter_.busy();
+    meter_.update(editor_.reconciler.scene(editor_.camera, editor_.document.view), size_px,
+                  editor_.ui.accuracy, held);
+    if (!before && !meter_.busy()) return;
+    ++views_;
+    frames_wanted_ = std::max(frames_wanted_, 1);  // whose words say what this one shows
+}
+
+void Loop::fill_viewport(ui::Viewport& viewport) const {
+    if (target_) viewport.texture = Renderer::display_texture(*target_);
+    const auto picture = [&](ui::Layer layer) {
+        if (layer.kind == ui::Layer::View && is_reference(editor_.document.view))
+            layer = {ui::Layer::Mode, Shading::Reference};
+        return meter_.picture(layer);
+    };
+    viewport.left = picture(editor_.ui.accuracy.left);
+    viewport.right = picture(editor_.ui.accuracy.right);
+    viewport.accuracy = meter_.status();
+}
+
+void Loop::fill_thumbnails() {
+    Thumbnails& thumbnails = editor_.thumbnails;
+    for (ui::CatalogItem& item : editor_.catalog.presets)
+        item.thumbnail = thumbnails.texture(Thumbnails::Kind::Preset, item.id);
+    for (ui::CatalogItem& item : editor_.catalog.environments)
+        item.thumbnail = thumbnails.texture(Thumbnails::Kind::Environment, item.id);
+    for (ui::CatalogItem& item : editor_.catalog.meshes)
+        item.thumbnail = thumbnails.texture(Thumbnails::Kind::Mesh, item.id);
+    if (editor_.import_sheet)
+        for (ui::ImportRow& row : editor_.import_sheet->rows)
+            row.thumbnail = thumbnails.texture(Thumbnails::Kind::Picture, row.file);
+}
+
+/// Before the first frame the view is taken to be as high as the window.
+Sight Loop::sight() const {
+    const int height = target_ ? Renderer::size_px(*target_).y : window_.framebuffer_px().y;
+    return {editor_.camera, std::max(height, 1)};
+}
+
+}  // namespace patina

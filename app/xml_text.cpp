@@ -1,0 +1,26 @@
+#include "app/xml_text.h"
+
+namespace patina {
+
+std::string xml_escaped(std::string_view text) {
+    std::string result;
+    for (const char c : text) switch (c) {
+            case '&':
+                result += "&amp;";
+                break;
+            case '<':
+                result += "&lt;";
+                break;
+            case '>':
+                result += "&gt;";
+                break;
+            case '"':
+                result += "&quot;";
+                break;
+            default:
+                result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+        }
+    return result;
+}
+
+}  // namespace patina
