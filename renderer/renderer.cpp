@@ -284,7 +284,7 @@ void Renderer::State::draw_reference(const Scene& scene, const GpuEnvironment& e
     bind_light(environment);
     if (scene.mesh) {
         bind_maps(scene);
-        bind_texture(gl::kReferenceUnit, GL_TEXTURE_2D, target.points);
+        glBindBufferBase(GL_UNIFORM_BUFFER, gl::kPointSlot, target.points.name());
         gl::begin_reference_pass(gl::ReferencePass::Depth);
         glUseProgram(depth_only().name());
         gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
