@@ -1,6 +1,7 @@
 #include "app/bake_files.h"
 
 #include "app/ktx.h"
+#include "app/paths.h"
 #include "materials/text_io.h"
 #include "renderer/core/file_io.h"
 #include "renderer/core/image_io.h"
@@ -53,18 +54,6 @@ Json source_json(const Environment& environment) {
     return {{"id", environment.id}, {"width", environment.width}, {"height", environment.height}};
 }
 
-/// A name for files: what the environment is called, without what a file system or a web address may not
-/// like.
-std::string file_stem(const Environment& environment) {
-    std::string stem = path_to_utf8(utf8_to_path(environment.id).stem());
-    for (char& c : stem) {
-        const bool plain =
-            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
-        if (!plain && static_cast<unsigned char>(c) < 0x80) c = '_';
-    }
-    return stem.empty() ? "environment" : stem;
-}
-
 }  // namespace
 
 Json write_bake_exr(const fs::path& folder, const Environment& environment, const BakedEnvironment& baked,
@@ -104,7 +93,7 @@ Json write_bake_exr(const fs::path& folder, const Environment& environment, cons
 
 Json write_bake_ktx(const fs::path& folder, const Environment& environment, const BakedEnvironment& baked) {
     const int exponent = ktx_exponent(baked, environment.id);
-    const std::string stem = file_stem(environment) + "_ibl";
+    const std::string stem = plain_stem(utf8_to_path(environment.id), "environment") + "_ibl";
     write_file(folder / utf8_to_path(stem + ".ktx"), to_ktx1(baked, exponent));
     write_file(folder / utf8_to_path(stem + ".ktx2"), to_ktx2(baked, exponent));
     Json json{

@@ -442,4 +442,9 @@ glm::ivec2 Renderer::size_px(const RenderTarget& target) { return target.size; }
 Image Renderer::read_display(const RenderTarget& target) { return gl::read_display_pixels(target); }
 Image Renderer::read_radiance(const RenderTarget& target) { return gl::read_radiance_pixels(target); }
 
+Renderer::PixelValue Renderer::read_pixel(const RenderTarget& target, glm::ivec2 pixel) {
+    const gl::PixelValue value = gl::read_pixel_value(target, pixel);
+    return {value.radiance, value.display};
+}
+
 }  // namespace patina

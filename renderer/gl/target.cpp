@@ -7,6 +7,8 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -88,23 +90,25 @@ bool make_display(RenderTarget& target) {
 
 /// Radiance and coverage of the whole picture, bottom row first; multisampled ones are averaged by the
 /// driver.
-std::vector<glm::vec4> read_resolved(const RenderTarget& target) {
+/// The pixels of a rectangle, its corner the lower left one, samples put together.
+std::vector<glm::vec4> read_resolved(const RenderTarget& target, glm::ivec2 corner, glm::ivec2 size) {
     RenderTarget single;
     GLuint source = target.radiance_framebuffer.name();
     if (target.samples > 1) {
-        single.size = target.size;
+        single.size = size;
         single.full_float = true;
         if (!make_radiance(single)) refuse(single);
         glBindFramebuffer(GL_READ_FRAMEBUFFER, source);
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, single.radiance_framebuffer.name());
-        glBlitFramebuffer(0, 0, target.size.x, target.size.y, 0, 0, target.size.x, target.size.y,
+        glBlitFramebuffer(corner.x, corner.y, corner.x + size.x, corner.y + size.y, 0, 0, size.x, size.y,
                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
         source = single.radiance_framebuffer.name();
+        corner = {0, 0};
     }
-    std::vector<glm::vec4> pixels(std::size_t(target.size.x) * target.size.y);
+    std::vector<glm::vec4> pixels(std::size_t(size.x) * size.y);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, source);
     glReadBuffer(GL_COLOR_ATTACHMENT0);
-    glReadPixels(0, 0, target.size.x, target.size.y, GL_RGBA, GL_FLOAT, pixels.data());
+    glReadPixels(corner.x, corner.y, size.x, size.y, GL_RGBA, GL_FLOAT, pixels.data());
     return pixels;
 }
 
@@ -152,7 +156,7 @@ Image read_radiance_pixels(const RenderTarget& target) {
     const KeepDrawState keep;
     const KeepReadState keep_read;
     const KeepTextureBindings keep_textures;
-    const std::vector<glm::vec4> pixels = read_resolved(target);
+    const std::vector<glm::vec4> pixels = read_resolved(target, {0, 0}, target.size);
     Image image = make_image(target.size.x, target.size.y, 3, PixelType::F32);
     auto* out = reinterpret_cast<float*>(image.bytes.data());
     for (int y = 0; y < target.size.y; ++y) {
@@ -163,6 +167,21 @@ Image read_radiance_pixels(const RenderTarget& target) {
         }
     }
     return image;
+}
+
+PixelValue read_pixel_value(const RenderTarget& target, glm::ivec2 pixel) {
+    const KeepDrawState keep;
+    const KeepReadState keep_read;
+    const KeepTextureBindings keep_textures;
+    const glm::ivec2 corner(pixel.x, target.size.y - 1 - pixel.y);
+    const glm::vec4 seen = read_resolved(target, corner, {1, 1}).front();
+    PixelValue value{glm::vec3(seen) + (1.0f - seen.w) * target.plain, {}};
+    std::array<std::uint8_t, 4> display{};
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, target.display_framebuffer.name());
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    glReadPixels(corner.x, corner.y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, display.data());
+    value.display = {display[0], display[1], display[2]};
+    return value;
 }
 
 KeepDrawState::KeepDrawState() {
