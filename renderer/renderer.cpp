@@ -1,5 +1,6 @@
 #include "renderer/renderer.h"
 
+#include "renderer/brdf.h"
 #include "renderer/features.h"
 #include "renderer/gl/brdf_table.h"
 #include "renderer/gl/environment.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <bitset>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -34,10 +36,11 @@ std::shared_ptr<const T> borrowed(const T& value) {
 }
 
 gl::Texture make_brdf_texture() {
+    assert(brdf::kAlbedoTableSize == float(kShadingTableSize));
     const gl::KeepTextureBindings keep;
     gl::Texture texture = gl::Texture::make();
     glBindTexture(GL_TEXTURE_2D, texture.name());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG16, kBrdfTableSize, kBrdfTableSize, 0, GL_RG, GL_UNSIGNED_SHORT,
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG16, kShadingTableSize, kShadingTableSize, 0, GL_RG, GL_UNSIGNED_SHORT,
                  embedded::brdf_table().data());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -387,6 +390,8 @@ WorkLedger& Renderer::work() { return state_->work; }
 
 std::uintptr_t Renderer::texture_of(const GpuMap& map) { return map.texture.name(); }
 
+const std::string& Renderer::note_of(const GpuMap& map) { return map.note; }
+
 TargetHandle Renderer::make_target(glm::ivec2 size_px, int samples, TargetPrecision precision) {
     return std::make_shared<RenderTarget>(
         gl::make_render_target(size_px, samples, precision == TargetPrecision::Full));
@@ -446,5 +451,10 @@ std::uintptr_t Renderer::display_texture(const RenderTarget& target) { return ta
 glm::ivec2 Renderer::size_px(const RenderTarget& target) { return target.size; }
 Image Renderer::read_display(const RenderTarget& target) { return gl::read_display_pixels(target); }
 Image Renderer::read_radiance(const RenderTarget& target) { return gl::read_radiance_pixels(target); }
+
+Renderer::PixelValue Renderer::read_pixel(const RenderTarget& target, glm::ivec2 pixel) {
+    const gl::PixelValue value = gl::read_pixel_value(target, pixel);
+    return {value.radiance, value.display};
+}
 
 }  // namespace patina

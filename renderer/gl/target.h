@@ -33,6 +33,12 @@ float largest_radiance(const RenderTarget& target);
 
 Image read_display_pixels(const RenderTarget& target);
 Image read_radiance_pixels(const RenderTarget& target);
+/// Of one pixel, (0,0) the upper left one.
+struct PixelValue {
+    glm::vec3 radiance{0.0f};
+    glm::ivec3 display{0};  ///< 0…255
+};
+PixelValue read_pixel_value(const RenderTarget& target, glm::ivec2 pixel);
 
 /// Everything a draw changes and other code may rely on, put back at the end.
 class KeepDrawState {

@@ -4,8 +4,9 @@
 #include "renderer/ibl/bake.h"
 
 #include <atomic>
-#include <cstdint>
+#include <cstddef>
 #include <hwy/aligned_allocator.h>
+#include <memory>
 #if __has_include(<sys/mman.h>)
 #include <sys/mman.h>
 #endif
@@ -29,10 +30,9 @@ void run_tasks(const BakeControl& control, int count, const MakeScratch& make_sc
 /// Touching fresh memory page by page takes a tenth of a bake; a system that has larger pages may give them.
 inline void ask_for_large_pages([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
-    constexpr std::uintptr_t page = std::uintptr_t{2} << 20;
-    const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(data) + page - 1) / page * page;
-    const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(data) + bytes) / page * page;
-    if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+    constexpr std::size_t page = std::size_t{2} << 20;
+    std::size_t space = bytes;
+    if (std::align(page, page, data, space)) madvise(data, space / page * page, MADV_HUGEPAGE);
 #endif
 }
 

@@ -36,7 +36,7 @@ Sampled make_sampled(Surface s, vec3 V) {
     p.V = V;
     p.alpha = max(square(s.roughness), 1e-4);
     p.F0 = base_reflectance(s.albedo, s.metallic);
-    vec2 ab = texture(brdf_table, vec2(sqrt(V.z), s.roughness)).rg;
+    vec2 ab = texture(brdf_table, albedo_coordinates(V.z, s.roughness)).rg;
     ReflectionWeights w = split_sum_weights(s.albedo, s.metallic, ab);
     p.body = w.multiple + w.diffuse;
     float single = mean_channel(w.single);
