@@ -97,6 +97,12 @@ LightLayout layout_of(const GpuEnvironment& environment) {
             environment.sharpest,          environment.lights,       environment.panorama_lights};
 }
 
+/// How many lights' colours the panorama's alpha needs (light.glsl).
+std::size_t colored_lights(const GpuEnvironment& environment) {
+    if (environment.panorama_lights.empty()) return 0;
+    return environment.lights.empty() ? environment.panorama_lights.size() : environment.lights.size();
+}
+
 Features features_for(const Scene& scene, const GpuEnvironment& environment) {
     std::bitset<kMapSlots> bound;
     for (std::size_t i = 0; i < scene.maps.size(); ++i) bound[i] = scene.maps[i] != nullptr;
@@ -132,12 +138,12 @@ void set_switches() {
 struct Renderer::State {
     WorkLedger work;
     std::map<Features, gl::Program> surfaces;
-    std::map<Features, gl::Program> references;
-    std::map<std::pair<Features, int>, gl::Program> rivals;  ///< by samples
-    gl::Program depth;                                       ///< of a mesh, nothing else
-    std::array<gl::Program, 2> backgrounds;                  ///< sharp, blurred
-    std::map<std::pair<int, int>, gl::Program> displays;     ///< by samples and tone mapper
-    gl::VertexArray nothing = gl::VertexArray::make();       ///< for triangles made in the shader
+    std::map<std::pair<Features, int>, gl::Program> references;  ///< by lights: 0, 1, more
+    std::map<std::pair<Features, int>, gl::Program> rivals;      ///< by samples
+    gl::Program depth;                                           ///< of a mesh, nothing else
+    std::array<gl::Program, 2> backgrounds;                      ///< sharp, blurred
+    std::map<std::pair<int, int>, gl::Program> displays;         ///< by samples and tone mapper
+    gl::VertexArray nothing = gl::VertexArray::make();           ///< for triangles made in the shader
     gl::Buffer frame_rows = gl::Buffer::make();
     gl::Buffer material_rows = gl::Buffer::make();
     gl::Texture brdf = make_brdf_texture();
@@ -147,7 +153,7 @@ struct Renderer::State {
     gl::Program compiled(const char* vertex, const char* fragment, const std::vector<std::string>& defines);
     void count_draw(std::uint64_t triangles, std::uint64_t calls = 1);
     const gl::Program& surface(Features features);
-    const gl::Program& reference(Features features);
+    const gl::Program& reference(Features features, std::size_t lights);
     const gl::Program& rival(Features features, int samples);
     const gl::Program& depth_only();
     const gl::Program& background(Background background);
@@ -179,9 +185,13 @@ const gl::Program& Renderer::State::surface(Features features) {
     return program;
 }
 
-const gl::Program& Renderer::State::reference(Features features) {
-    gl::Program& program = references[features];
-    if (!program) program = compiled("mesh.vert.glsl", "reference.frag.glsl", defines_of(features));
+const gl::Program& Renderer::State::reference(Features features, std::size_t lights) {
+    const int kind = int(std::min<std::size_t>(lights, 2));
+    gl::Program& program = references[{features, kind}];
+    if (program) return program;
+    std::vector<std::string> defines = defines_of(features);
+    defines.push_back("PANORAMA_LIGHTS=" + std::to_string(kind));
+    program = compiled("mesh.vert.glsl", "reference.frag.glsl", defines);
     return program;
 }
 
@@ -289,7 +299,7 @@ void Renderer::State::draw_reference(const Scene& scene, const GpuEnvironment& e
         glUseProgram(depth_only().name());
         gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
         gl::begin_reference_pass(gl::ReferencePass::Surface);
-        const gl::Program& program = reference(features);
+        const gl::Program& program = reference(features, colored_lights(environment));
         glUseProgram(program.name());
         const double light = slice.total * double(exposure);
         glUniform2f(glGetUniformLocation(program.name(), "reference_slice"), float(slice.points),
