@@ -367,11 +367,11 @@ constexpr std::array kCommands{std::pair{"edit", Command::Edit},       std::pair
 
 /// `patina gold.json` means `patina edit gold.json`.
 std::vector<std::string> with_default_command(std::vector<std::string> words) {
-    constexpr std::array kRootOptions{"--help", "-h", "--version"};
+    constexpr std::array root_options{"--help", "-h", "--version"};
     const bool named =
         !words.empty() &&
         (std::ranges::any_of(kCommands, [&](const auto& row) { return words.front() == row.first; }) ||
-         std::ranges::any_of(kRootOptions, [&](const char* option) { return words.front() == option; }));
+         std::ranges::any_of(root_options, [&](const char* option) { return words.front() == option; }));
     if (!named) words.insert(words.begin(), "edit");
     return words;
 }

@@ -275,6 +275,7 @@ void Loop::live() {
     while (!editor_.quit) {
         window_.wait(sleep_s());
         const double begin_ms = thread_work_ms();
+        window_.require_context();
         drive();
         take_events();
         think();

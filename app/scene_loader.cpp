@@ -121,6 +121,8 @@ const SceneLoader::Map& SceneLoader::map(const MapSource& source, const std::str
     loaded.image = {};
     map.side = side;
     map.handle = renderer_.upload_map(levels);
+    if (const std::string& note = Renderer::note_of(*map.handle); !note.empty())
+        options_.note(path_to_utf8(source.file.filename()) + ": " + note);
     return map;
 }
 

@@ -123,8 +123,9 @@ Trial reflection_fuzz(Random& random, Stage&) {
         check_weights(brdf::course_weights(albedo, metallic, roughness, NoV, ab));
         // As the shader calls it: lobes of lights are no sharper than the sharpest level, α ≥ 1e-6².
         const float alpha2 = std::max(brdf::square(brdf::square(roughness)), 1e-12f);
-        trial.require(is_sane(brdf::light_specular(albedo, edgy_unit(random),
-                                                   vec3(NoV, NoL, edgy_unit(random)), vec2(alpha2))));
+        trial.require(
+            is_sane(brdf::light_specular(albedo, edgy_unit(random), vec3(NoV, NoL, edgy_unit(random)),
+                                         vec2(alpha2, 0.2f * edgy_unit(random)))));
         const float sharpest2 = 1e-4f;
         const float q = float(random.log_between(1e-3, 1e3));
         const float core_alpha2 = std::clamp(alpha2, 1e-14f, sharpest2);

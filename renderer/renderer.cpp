@@ -377,6 +377,8 @@ WorkLedger& Renderer::work() { return state_->work; }
 
 std::uintptr_t Renderer::texture_of(const GpuMap& map) { return map.texture.name(); }
 
+const std::string& Renderer::note_of(const GpuMap& map) { return map.note; }
+
 TargetHandle Renderer::make_target(glm::ivec2 size_px, int samples, TargetPrecision precision) {
     return std::make_shared<RenderTarget>(
         gl::make_render_target(size_px, samples, precision == TargetPrecision::Full));

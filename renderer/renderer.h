@@ -136,6 +136,8 @@ public:
     /// An 8-bit picture as a texture for the interface (thumbnails); released with the handle.
     MapHandle upload_thumbnail(const Image& image);
     static std::uintptr_t texture_of(const GpuMap& map);
+    /// One sentence where the driver had no memory for all of it; else empty.
+    static const std::string& note_of(const GpuMap& map);
 
     /// What was done for pictures drawn with this renderer; whoever loads or bakes for it adds to it.
     WorkLedger& work();

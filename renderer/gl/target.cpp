@@ -32,9 +32,10 @@ int offered_samples(int wanted) {
     return samples;
 }
 
-void require_complete(const RenderTarget& target) {
-    const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
-    if (status == GL_FRAMEBUFFER_COMPLETE) return;
+/// Of the framebuffer just bound.
+bool is_complete() { return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE; }
+
+[[noreturn]] void refuse(const RenderTarget& target) {
     throw std::runtime_error("The graphics driver offers no picture of " + std::to_string(target.size.x) +
                              "×" + std::to_string(target.size.y) + " with " + std::to_string(target.samples) +
                              " samples to draw into: choose a smaller size.");
@@ -48,7 +49,8 @@ void plain_filter() {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
 }
 
-void make_radiance(RenderTarget& target) {
+/// False where the driver cannot draw into it.
+bool make_radiance(RenderTarget& target) {
     const GLenum format = target.full_float ? GL_RGBA32F : GL_RGBA16F;
     target.radiance = Texture::make();
     target.depth = Renderbuffer::make();
@@ -71,10 +73,10 @@ void make_radiance(RenderTarget& target) {
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, target.radiance_kind(),
                            target.radiance.name(), 0);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target.depth.name());
-    require_complete(target);
+    return is_complete();
 }
 
-void make_display(RenderTarget& target) {
+bool make_display(RenderTarget& target) {
     target.display = Texture::make();
     target.display_framebuffer = Framebuffer::make();
     glBindTexture(GL_TEXTURE_2D, target.display.name());
@@ -83,7 +85,7 @@ void make_display(RenderTarget& target) {
     plain_filter();
     glBindFramebuffer(GL_FRAMEBUFFER, target.display_framebuffer.name());
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.display.name(), 0);
-    require_complete(target);
+    return is_complete();
 }
 
 /// Radiance and coverage of the whole picture, bottom row first; multisampled ones are averaged by the
@@ -95,7 +97,7 @@ std::vector<glm::vec4> read_resolved(const RenderTarget& target, glm::ivec2 corn
     if (target.samples > 1) {
         single.size = size;
         single.full_float = true;
-        make_radiance(single);
+        if (!make_radiance(single)) refuse(single);
         glBindFramebuffer(GL_READ_FRAMEBUFFER, source);
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, single.radiance_framebuffer.name());
         glBlitFramebuffer(corner.x, corner.y, corner.x + size.x, corner.y + size.y, 0, 0, size.x, size.y,
@@ -121,10 +123,14 @@ RenderTarget make_render_target(glm::ivec2 size, int samples, bool full_float) {
     target.size = glm::clamp(size, glm::ivec2(1), glm::ivec2(limit));
     target.samples = offered_samples(samples);
     target.full_float = full_float;
-    make_radiance(target);
-    make_display(target);
+    bool is_whole = make_radiance(target) && make_display(target);
+    if (target.samples > 1 && (ran_out_of_memory() || !is_whole)) {  // better with jagged edges than not at all
+        target.samples = 1;
+        is_whole = make_radiance(target) && make_display(target);
+    }
     glBindRenderbuffer(GL_RENDERBUFFER, 0);
     check_memory("the picture");
+    if (!is_whole) refuse(target);
     return target;
 }
 

@@ -50,9 +50,9 @@ vec3 specular_part(Surface s, vec3 N, vec3 V, float NoV, vec2 ab) {
         if (NoL <= 0.0) continue;
         vec3 H = normalize(V + L);
         vec3 side = cross(N, H);
-        float wide = max(alpha * alpha, square(level_layout.w)) + light_direction[i].w;
+        vec2 widths = vec2(max(alpha * alpha, square(level_layout.w)), light_direction[i].w);
         sum += light_irradiance[i].rgb *
-               light_specular(F0, dot(side, side), vec3(NoV, NoL, max(dot(V, H), 0.0)), vec2(wide, square(alpha)));
+               light_specular(F0, dot(side, side), vec3(NoV, NoL, max(dot(V, H), 0.0)), widths);
     }
     return sum;
 }

@@ -118,10 +118,21 @@ vec3 shading_normal(vec3 V, vec2 st) {
     return n;
 }
 
-// Of the normals within the pixel: half vectors that a small light would hit or miss by chance are spread over it (Tokuyoshi
-// & Kaplanyan 2019). At a silhouette the neighbours it is measured against lie beside the surface.
-float pixel_spread(vec3 N) {
+// How the normal changes from a pixel to its neighbours. At a silhouette, where it turns without end, those that it is
+// measured against lie beside the surface.
+struct PixelNormals {
+    vec3 across;
+    vec3 up;
+};
+PixelNormals pixel_normals(vec3 N) {
     vec3 across = dFdx(N);
     vec3 up = dFdy(N);
-    return min(0.5 * (dot(across, across) + dot(up, up)), 0.18);
+    float largest2 = max(dot(across, across), dot(up, up));
+    float scale = min(1.0, 0.5 * inversesqrt(max(largest2, 1e-20)));
+    return PixelNormals(scale * across, scale * up);
 }
+
+// What they add to alpha² for a small light, whose half vectors stand still while the normal turns. A pixel's mean is a box one
+// pixel wide, whose variance is 1/12 a side. Slopes of variance σ² along an axis have α² = 2σ² (Beckmann's α is GGX's in the
+// middle), and the two axes of the tangent plane have half of the whole variance (|∂x N|² + |∂y N|²)/12 each.
+float pixel_spread(PixelNormals n) { return (dot(n.across, n.across) + dot(n.up, n.up)) / 12.0; }
