@@ -32,12 +32,14 @@ void write_wall(const std::filesystem::path& file) {
     save_image(file, wall);
 }
 
-TEST(EditorSheet, goes_from_presets_and_lights_over_a_photo_to_a_report) {
+TEST(SlowEditorSheet, goes_from_presets_and_lights_over_a_photo_to_a_report) {
     const Folder home;
     write_picture(home / "shot.png", 118, 118, 100);
     EXPECT_DRIVEN(drive(home, R"(
 wait idle
 key c
+wait idle
+click sheet.view.2
 wait idle
 click sheet.add_light
 wait idle
