@@ -1,5 +1,6 @@
 #include "renderer/renderer.h"
 
+#include "renderer/brdf.h"
 #include "renderer/features.h"
 #include "renderer/gl/brdf_table.h"
 #include "renderer/gl/environment.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <bitset>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -34,10 +36,11 @@ std::shared_ptr<const T> borrowed(const T& value) {
 }
 
 gl::Texture make_brdf_texture() {
+    assert(brdf::kAlbedoTableSize == float(kShadingTableSize));
     const gl::KeepTextureBindings keep;
     gl::Texture texture = gl::Texture::make();
     glBindTexture(GL_TEXTURE_2D, texture.name());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG16, kBrdfTableSize, kBrdfTableSize, 0, GL_RG, GL_UNSIGNED_SHORT,
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG16, kShadingTableSize, kShadingTableSize, 0, GL_RG, GL_UNSIGNED_SHORT,
                  embedded::brdf_table().data());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -281,7 +284,7 @@ void Renderer::State::draw_reference(const Scene& scene, const GpuEnvironment& e
     bind_light(environment);
     if (scene.mesh) {
         bind_maps(scene);
-        bind_texture(gl::kReferenceUnit, GL_TEXTURE_2D, target.points);
+        glBindBufferBase(GL_UNIFORM_BUFFER, gl::kPointSlot, target.points.name());
         gl::begin_reference_pass(gl::ReferencePass::Depth);
         glUseProgram(depth_only().name());
         gl::draw_mesh(*scene.mesh, camera_position(scene.camera));

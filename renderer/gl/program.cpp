@@ -108,13 +108,12 @@ void compile(const Stage& stage, const ShaderText& shader, std::span<const std::
 
 void bind_interface(GLuint program) {
     static constexpr std::pair<const char*, GLuint> samplers[] = {
-        {"panorama_map", kPanoramaUnit},      {"level_maps", kLevelsUnit},
-        {"irradiance_map", kIrradianceUnit},  {"brdf_table", kBrdfUnit},
-        {"albedo_map", kFirstMapUnit + 0},    {"roughness_map", kFirstMapUnit + 1},
-        {"metallic_map", kFirstMapUnit + 2},  {"ao_map", kFirstMapUnit + 3},
-        {"normal_map", kFirstMapUnit + 4},    {"emission_map", kFirstMapUnit + 5},
-        {"lobe_table", kLobesUnit},           {"picture", kPictureUnit},
-        {"reference_points", kReferenceUnit},
+        {"panorama_map", kPanoramaUnit},     {"level_maps", kLevelsUnit},
+        {"irradiance_map", kIrradianceUnit}, {"brdf_table", kBrdfUnit},
+        {"albedo_map", kFirstMapUnit + 0},   {"roughness_map", kFirstMapUnit + 1},
+        {"metallic_map", kFirstMapUnit + 2}, {"ao_map", kFirstMapUnit + 3},
+        {"normal_map", kFirstMapUnit + 4},   {"emission_map", kFirstMapUnit + 5},
+        {"lobe_table", kLobesUnit},          {"picture", kPictureUnit},
     };
     GLint previous = 0;
     glGetIntegerv(GL_CURRENT_PROGRAM, &previous);
@@ -124,8 +123,8 @@ void bind_interface(GLuint program) {
         if (location >= 0) glUniform1i(location, GLint(unit));
     }
     glUseProgram(GLuint(previous));
-    static constexpr std::pair<const char*, GLuint> uniform_blocks[] = {{"FrameBlock", kFrameSlot},
-                                                                        {"MaterialBlock", kMaterialSlot}};
+    static constexpr std::pair<const char*, GLuint> uniform_blocks[] = {
+        {"FrameBlock", kFrameSlot}, {"MaterialBlock", kMaterialSlot}, {"PointBlock", kPointSlot}};
     for (const auto& [name, slot] : uniform_blocks) {
         const GLuint index = glGetUniformBlockIndex(program, name);
         if (index != GL_INVALID_INDEX) glUniformBlockBinding(program, index, slot);

@@ -136,6 +136,12 @@ PATINA_FN float fresnel_share(float f0, vec2 ab) {
 // One direction stands for all channels of F0.
 PATINA_FN float luminance(vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
+// Where the table of A and B is read. Its outermost texels lie on the ends of both axes: nothing is extrapolated.
+const float kAlbedoTableSize = 384.0f;
+PATINA_FN vec2 albedo_coordinates(float NoV, float roughness) {
+    return (vec2(sqrt(NoV), roughness) * (kAlbedoTableSize - 1.0f) + 0.5f) / kAlbedoTableSize;
+}
+
 // Where the table of fitted lobes is read: √NoV, and roughness from the sharpest fitted one on, as fractions of its sides.
 const float kSharpestFitted = 0.1f;
 PATINA_FN vec2 lobe_coordinates(float NoV, float roughness) {

@@ -82,7 +82,7 @@ Reflected reflected_light(Surface s, vec3 N, vec3 V) {
     p.R = environment_direction(R);
     p.NoV = NoV;
     p.roughness = s.roughness;
-    p.ab = texture(brdf_table, vec2(sqrt(NoV), s.roughness)).rg;
+    p.ab = texture(brdf_table, albedo_coordinates(NoV, s.roughness)).rg;
     p.f0 = luminance(base_reflectance(s.albedo, s.metallic));
     p.irradiance = irradiance_light(p.N);
     p.across = p.up = vec3(0.0);

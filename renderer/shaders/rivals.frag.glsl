@@ -64,7 +64,7 @@ void main() {
     Surface s = read_surface(st);
     vec3 N = shading_normal(V, st);
     float NoV = max(dot(N, V), 1e-4);
-    vec2 ab = texture(brdf_table, vec2(sqrt(NoV), s.roughness)).rg;
+    vec2 ab = texture(brdf_table, albedo_coordinates(NoV, s.roughness)).rg;
     ReflectionWeights w = split_sum_weights(s.albedo, s.metallic, ab);
     vec3 irradiance = textureLod(irradiance_map, environment_direction(N), 0.0).rgb * env_scale.z;
     for (int i = 0; i < PATINA_MAX_LIGHTS; ++i) {

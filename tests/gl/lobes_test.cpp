@@ -207,7 +207,7 @@ TEST(ExtractedLights, are_as_wide_as_the_pixels_of_a_small_sphere_make_them) {
     // Around the sun's highlight lies the dark tail of a narrow lobe: too wide a lobe errs by a multiple of
     // it.
     for (const float roughness : {0.06f, 0.1f, 0.2f})
-        EXPECT_LT(small_sphere_error(roughness, 64), 0.2) << roughness;
+        EXPECT_LT(small_sphere_error(roughness, 64), 0.06) << roughness;
 }
 
 TEST(Occlusion, follows_its_formulas_and_leaves_open_surfaces_alone) {

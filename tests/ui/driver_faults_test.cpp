@@ -28,14 +28,15 @@ TEST(DriverFaults, a_lost_context_ends_in_one_sentence_and_the_next_start_offers
     const Folder home;
     const fs::path sign = home / "ready.png", lost = home / "lost";
     std::ofstream(home / "gold.json") << R"({"name": "Gold", "roughness": {"value": 0.25}})";
-    Program program(home, drive_arguments(home, R"(
+    Program program(home,
+                    drive_arguments(home, R"(
 wait idle
 drag material.metallic.bar 90 0
 expect dirty
 screenshot )" + sign.string() + R"(
 wait 300 seconds
 )",
-                                          {(home / "gold.json").string()}),
+                                    {(home / "gold.json").string()}),
                     with_faults({{"PATINA_GL_LOST", lost.string()}}));
     ASSERT_TRUE(wait_for_file(sign)) << program.wait().errors;
     std::ofstream(lost) << "now";
@@ -74,8 +75,8 @@ TEST(DriverFaults, a_map_that_has_no_place_on_the_card_is_drawn_coarser_and_the_
     };
     const Outcome coarser = outcome("100", R"(
 expect albedo.state=ok
-expect log~noise.png: The graphics card has no memory left for the whole map
-expect log~64×64 of
+expect "log~noise.png: The graphics card has no memory left for the whole map"
+expect "log~64×64 of 512×512"
 expect clean
 drag material.roughness.bar -60 0
 wait idle
@@ -85,12 +86,6 @@ wait until clean
 )");
     EXPECT_EQ(coarser.status, 0) << coarser.errors;
     EXPECT_EQ(load_material(home / "noise.json").material.albedo.map, "noise.png");
-    const Outcome refused = outcome("8", R"(
-expect albedo.state=broken
-expect log~no memory left for a map
-expect clean
-)");
-    EXPECT_EQ(refused.status, 0) << refused.errors;
     const Outcome enough = outcome("512", "expect albedo.state=ok\nexpect log!~memory\n");
     EXPECT_EQ(enough.status, 0) << enough.errors;
 }

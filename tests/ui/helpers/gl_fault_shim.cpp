@@ -2,9 +2,10 @@
 // program sees it. Puts itself in place of functions in libepoxy's table of them.
 //   PATINA_GL_MEMORY  widest colour map in 8 bits that has a place, in texels
 //   PATINA_GL_LOST    the context is lost from the moment this file is there
+#include <epoxy/gl.h>
+
 #include <cstdlib>
 #include <dlfcn.h>
-#include <epoxy/gl.h>
 #include <unistd.h>
 
 namespace {
