@@ -32,8 +32,8 @@ using Bytes = std::span<const std::byte>;
 /// Helpers that share the unpacking of one file's blocks; started with the first file.
 int helper_threads() {
     static const int count = [] {
-        const int count = static_cast<int>(IlmThread::ThreadPool::estimateThreadCountForFileIO());
-        Imf::setGlobalThreadCount(std::clamp(count, 0, 4));
+        const auto useful = static_cast<int>(IlmThread::ThreadPool::estimateThreadCountForFileIO());
+        Imf::setGlobalThreadCount(std::clamp(useful, 0, 4));
         return Imf::globalThreadCount();
     }();
     return count;
