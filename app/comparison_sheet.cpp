@@ -222,14 +222,19 @@ RenderTarget& ComparisonScenes::target(glm::ivec2 size_px) {
     return *handle;
 }
 
+/// One camera and mesh: presets without maps share a surface, and so do the lightings of each preset.
+Reuse ComparisonScenes::reuse() const {
+    return places_of(comparison_).size() > 1 ? Reuse::Expected : Reuse::IfRepeated;
+}
+
 Image ComparisonScenes::radiance(const Scene& scene, glm::ivec2 size_px) {
     RenderTarget& to = target(size_px);
-    renderer_.draw(scene, to);
+    renderer_.draw(scene, to, reuse());
     return renderer_.read_radiance(to);
 }
 Image ComparisonScenes::display(const Scene& scene, glm::ivec2 size_px) {
     RenderTarget& to = target(size_px);
-    renderer_.draw(scene, to);
+    renderer_.draw(scene, to, reuse());
     return renderer_.read_display(to);
 }
 

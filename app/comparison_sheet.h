@@ -28,6 +28,7 @@ public:
 
 private:
     RenderTarget& target(glm::ivec2 size_px);
+    Reuse reuse() const;
 
     Renderer& renderer_;
     SceneLoader& loader_;

@@ -316,6 +316,7 @@ Editor::Editor(const Registry& parts, Renderer& gpu, Jobs& workers, Settings rem
       thumbnails(gpu, parts, workers, {.folder = cache_folder() / "thumbnails", .bakes = bake_cache()}),
       recovery(state_folder()),
       autosave_seen(document) {
+    renderer.set_reuse(skip);
     ui.library_width = settings.library_width;
     ui.inspector_width = settings.inspector_width;
     ui.drawer_height = settings.drawer_height;

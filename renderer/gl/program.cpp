@@ -108,13 +108,27 @@ void compile(const Stage& stage, const ShaderText& shader, std::span<const std::
 
 void bind_interface(GLuint program) {
     static constexpr std::pair<const char*, GLuint> samplers[] = {
-        {"panorama_map", kPanoramaUnit},      {"level_maps", kLevelsUnit},
-        {"irradiance_map", kIrradianceUnit},  {"brdf_table", kBrdfUnit},
-        {"albedo_map", kFirstMapUnit + 0},    {"roughness_map", kFirstMapUnit + 1},
-        {"metallic_map", kFirstMapUnit + 2},  {"ao_map", kFirstMapUnit + 3},
-        {"normal_map", kFirstMapUnit + 4},    {"emission_map", kFirstMapUnit + 5},
-        {"lobe_table", kLobesUnit},           {"picture", kPictureUnit},
+        {"panorama_map", kPanoramaUnit},
+        {"level_maps", kLevelsUnit},
+        {"irradiance_map", kIrradianceUnit},
+        {"brdf_table", kBrdfUnit},
+        {"albedo_map", kFirstMapUnit + 0},
+        {"roughness_map", kFirstMapUnit + 1},
+        {"metallic_map", kFirstMapUnit + 2},
+        {"ao_map", kFirstMapUnit + 3},
+        {"normal_map", kFirstMapUnit + 4},
+        {"emission_map", kFirstMapUnit + 5},
+        {"lobe_table", kLobesUnit},
+        {"picture", kPictureUnit},
         {"reference_points", kReferenceUnit},
+        {"stored_normals", kFirstStoredUnit + 0},
+        {"stored_views", kFirstStoredUnit + 1},
+        {"stored_colors", kFirstStoredUnit + 2},
+        {"stored_scalars", kFirstStoredUnit + 3},
+        {"stored_emissions", kFirstStoredUnit + 4},
+        {"fragment_places", kFragmentPlacesUnit},
+        {"fragment_of_pixel", kFragmentOfPixelUnit},
+        {"fragments_of_samples", kFragmentsOfSamplesUnit},
     };
     GLint previous = 0;
     glGetIntegerv(GL_CURRENT_PROGRAM, &previous);

@@ -86,10 +86,16 @@ void make_display(RenderTarget& target) {
 
 /// Radiance and coverage of the whole picture, bottom row first; multisampled ones are averaged by the
 /// driver.
-std::vector<glm::vec4> read_resolved(const RenderTarget& target) {
+std::vector<glm::vec4> read_resolved(const RenderTarget& target, const std::function<void()>& resolve) {
     RenderTarget single;
     GLuint source = target.radiance_framebuffer.name();
-    if (target.samples > 1) {
+    if (target.stored.surfaces) {
+        single.size = target.size;
+        single.full_float = true;
+        make_radiance(single);
+        resolve();
+        source = single.radiance_framebuffer.name();
+    } else if (target.samples > 1) {
         single.size = target.size;
         single.full_float = true;
         make_radiance(single);
@@ -142,11 +148,11 @@ Image read_display_pixels(const RenderTarget& target) {
     return image;
 }
 
-Image read_radiance_pixels(const RenderTarget& target) {
+Image read_radiance_pixels(const RenderTarget& target, const std::function<void()>& resolve) {
     const KeepDrawState keep;
     const KeepReadState keep_read;
     const KeepTextureBindings keep_textures;
-    const std::vector<glm::vec4> pixels = read_resolved(target);
+    const std::vector<glm::vec4> pixels = read_resolved(target, resolve);
     Image image = make_image(target.size.x, target.size.y, 3, PixelType::F32);
     auto* out = reinterpret_cast<float*>(image.bytes.data());
     for (int y = 0; y < target.size.y; ++y) {

@@ -29,6 +29,9 @@ private:
     GLint flat_ = 0, cube_ = 0, cube_array_ = 0, alignment_ = 4, row_length_ = 0, buffer_ = 0;
 };
 
+/// Whether OpenGL is Mesa's software renderer.
+bool is_software();
+
 /// Throws std::runtime_error in one sentence if the driver ran out of memory since it was last asked.
 void check_memory(const char* what);
 

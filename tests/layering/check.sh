@@ -45,7 +45,7 @@ forbid 'only report_pdf may name libharu' '#include <hpdf' $(sources app rendere
 forbid 'no Qt' '#include <Q[A-Z]' $(sources app renderer ui materials)
 
 # Actions.
-gl_rooms='renderer/gl/[^/]* renderer/renderer.cpp app/window.cpp app/headless.cpp app/bare_window.cpp'
+gl_rooms='renderer/gl/[^/]* renderer/renderer[_a-z]*.(cpp|h) app/window.cpp app/headless.cpp app/bare_window.cpp'
 # shellcheck disable=SC2086
 forbid 'GL calls only in renderer/gl, renderer.cpp, window.cpp, headless.cpp' \
     '(^|[^A-Za-z0-9_:.>])gl[A-Z][A-Za-z0-9]*\(|<epoxy/' $(sources app renderer ui materials -- $gl_rooms)
