@@ -1,6 +1,7 @@
 #include "app/studio.h"
 
 #include "app/paths.h"
+#include "app/program_store_io.h"
 #include "renderer/reference.h"
 
 #include <array>
@@ -38,6 +39,7 @@ Studio::Studio(const Registry& registry, const SceneOptions& options)
            .progress = [this](const std::string& what, float fraction) { progress.show(what, fraction); }}),
       samples_(options.samples) {
     renderer.set_reuse(options.skip);
+    if (options.skip) renderer.set_program_store(program_store_in(cache_folder() / "programs"));
 }
 
 TargetHandle Studio::draw_reference(const Scene& scene, glm::ivec2 size_px) {

@@ -264,6 +264,8 @@ Image Renderer::read_radiance(const RenderTarget& target) {
     return gl::read_radiance_pixels(target, [&] { state_->draw_resolved(target); });
 }
 
+void Renderer::set_program_store(ProgramStore store) { state_->programs = std::move(store); }
+
 void Renderer::set_reuse(bool allowed) {
     state_->reuse = allowed;
     if (!allowed) state_->kept_surfaces.clear();

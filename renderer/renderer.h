@@ -11,6 +11,7 @@
 #include "renderer/core/image.h"
 #include "renderer/core/ledger.h"
 #include "renderer/core/mesh.h"
+#include "renderer/core/program_store.h"
 #include "renderer/core/view.h"
 #include "renderer/gl/light_levels.h"
 #include "renderer/gl/mesh_prepare.h"
@@ -104,6 +105,8 @@ public:
     /// Without an environment only emission and a plain background are seen, without a mesh only the
     /// background. The plain background is shown as it is: neither exposure nor tone mapping touch it.
     void draw(const Scene& scene, RenderTarget& target, Reuse reuse = Reuse::None);
+    /// From now on programs are taken from there where the driver agrees, and given there when compiled.
+    void set_program_store(ProgramStore store);
     /// False: every picture is rasterised anew, for comparison.
     void set_reuse(bool allowed);
     /// Whether both show one surface at one size: what draw() can shade without rasterising it again.

@@ -95,8 +95,19 @@ void set_switches() {
 
 gl::Program Renderer::State::compiled(const char* vertex, const char* fragment,
                                       const std::vector<std::string>& defines) {
+    gl::ProgramText text(gl::embedded_shader(vertex), gl::embedded_shader(fragment), defines);
+    const std::string key = programs.load ? gl::program_key(text) : std::string{};
+    if (!key.empty())
+        if (gl::Program kept = gl::program_from(programs.load(key))) {
+            ++work.programs_from_disk;
+            return kept;
+        }
     ++work.programs_compiled;
-    return gl::make_program(gl::embedded_shader(vertex), gl::embedded_shader(fragment), defines);
+    gl::Program program = gl::make_program(text);
+    if (!key.empty())
+        if (const std::vector<std::byte> bytes = gl::to_bytes(program); !bytes.empty())
+            programs.save(key, bytes);
+    return program;
 }
 
 void Renderer::State::count_draw(std::uint64_t triangles, std::uint64_t calls) {

@@ -51,6 +51,7 @@ struct StoredPrograms {
 
 struct Renderer::State {
     WorkLedger work;
+    ProgramStore programs;
     std::map<Features, gl::Program> surfaces;
     std::map<Features, gl::Program> references;
     std::map<std::pair<Features, int>, gl::Program> rivals;      ///< by samples

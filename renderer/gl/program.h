@@ -3,9 +3,11 @@
 
 #include "renderer/gl/handles.h"
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace patina::gl {
 
@@ -17,6 +19,25 @@ struct ShaderText {
 /// A file of renderer/shaders as the build embedded it. Throws std::runtime_error if there is none of that
 /// name.
 ShaderText embedded_shader(std::string_view name);
+
+/// A program's two stages with their defines, expanded.
+struct ProgramText {
+    ProgramText(const ShaderText& vertex, const ShaderText& fragment, std::span<const std::string> defines);
+    struct Stage {
+        std::string name;                ///< for messages
+        std::vector<std::string> files;  ///< in the order of their source string numbers
+        std::string text;
+    };
+    Stage vertex, fragment;
+};
+Program make_program(const ProgramText& text);
+
+/// Names text and driver, for a file; empty where the driver hands no programs out.
+std::string program_key(const ProgramText& text);
+/// What the driver keeps of a program, to be taken by program_from; empty where it keeps nothing.
+std::vector<std::byte> to_bytes(const Program& program);
+/// No program (false) where the bytes are not whole or the driver does not want them any more.
+Program program_from(std::span<const std::byte> bytes);
 
 /// Compiles and links; defines become `#define NAME 1` (or `NAME VALUE` from "NAME=VALUE"). Samplers and
 /// uniform blocks are bound by the tables in program.cpp. Throws std::runtime_error: one sentence with file,

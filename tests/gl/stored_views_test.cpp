@@ -5,8 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <map>
 #include <ostream>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace patina {
 namespace {
@@ -157,6 +161,34 @@ TEST_F(StoredSurface, is_rasterised_anew_for_what_lies_in_it) {
     EXPECT_TRUE(rasterises([](Scene& scene) { scene.maps = {}; }));
     // Without maps their transform is nobody's concern.
     EXPECT_FALSE(rasterises([](Scene& scene) { scene.material.uv.scale.x = 4.0f; }));
+}
+
+TEST(StoredPrograms, are_taken_again_unless_they_are_damaged) {
+    renderer();  // its context
+    std::map<std::string, std::vector<std::byte>> kept;
+    const ProgramStore store{[&](const std::string& key) { return kept[key]; },
+                             [&](const std::string& key, std::span<const std::byte> bytes) {
+                                 kept[key].assign(bytes.begin(), bytes.end());
+                             }};
+    const Scene scene = make_scene(linear_light(), sphere());
+    const auto drawn = [&](WorkLedger& work) {
+        Renderer other;
+        other.set_program_store(store);
+        const TargetHandle target = other.make_target({24, 24}, 1);
+        other.draw(scene, *target);
+        work = other.work();
+        return other.read_display(*target);
+    };
+    WorkLedger first, second, third;
+    const Image picture = drawn(first);
+    EXPECT_GT(first.programs_compiled, 0u);
+    if (kept.empty()) GTEST_SKIP() << "this driver hands no programs out";
+    EXPECT_EQ(drawn(second).bytes, picture.bytes);
+    EXPECT_EQ(second.programs_compiled, 0u);
+    EXPECT_EQ(second.programs_from_disk, first.programs_compiled);
+    for (auto& [key, bytes] : kept) bytes[bytes.size() / 2] ^= std::byte{0x10};
+    EXPECT_EQ(drawn(third).bytes, picture.bytes);
+    EXPECT_EQ(third.programs_compiled, first.programs_compiled);
 }
 
 TEST_F(StoredSurface, is_not_kept_where_that_is_not_wanted) {
