@@ -31,7 +31,7 @@ Scene with_shading(Scene scene, Shading shading) {
 struct Measured {
     PictureError error;
     double flip = 0.0;
-    Image error_map, flip_map;
+    Image error_map, flip_map, signed_map;
 };
 struct Pictures {
     Image shaded, reference, mask;
@@ -39,14 +39,18 @@ struct Pictures {
 Measured measure(const Pictures& pictures) {
     Measured measured;
     measured.error = picture_error(pictures.shaded, pictures.reference, pictures.mask);
-    measured.error_map =
-        viridis_picture(relative_error(pictures.shaded, pictures.reference), ui::kErrorWhite);
+    measured.error_map = difference_picture(pictures.shaded, pictures.reference, DifferenceKind::Relative);
     const Image flip = hdr_flip(pictures.reference, pictures.shaded);
     measured.flip = mean_value(flip, pictures.mask);
-    measured.flip_map = viridis_picture(flip, ui::kFlipWhite);
+    measured.flip_map = viridis_picture(flip, kFlipWhite);
+    measured.signed_map = difference_picture(pictures.shaded, pictures.reference, DifferenceKind::Signed);
     return measured;
 }
 
+}  // namespace
+
+namespace {
+bool is_map(const ui::Layer& layer) { return layer.kind != ui::Layer::View && layer.kind != ui::Layer::Mode; }
 }  // namespace
 
 struct AccuracyMeter::State {
@@ -66,7 +70,7 @@ struct AccuracyMeter::State {
     int measured_samples = 0;
     Shading measured_mode = Shading::SplitSum;
     Shading judged = Shading::SplitSum;
-    MapHandle error_map, flip_map;
+    MapHandle error_map, flip_map, signed_map;
     ui::AccuracyStatus status;
 
     void draw_other(const Scene& scene, glm::ivec2 size, Shading shading);
@@ -90,7 +94,7 @@ void AccuracyMeter::State::forget_measurement() {
     if (job != 0) jobs.stop(job);
     job = 0;
     measured_samples = 0;
-    error_map = flip_map = nullptr;
+    error_map = flip_map = signed_map = nullptr;
     status = {};
 }
 
@@ -151,6 +155,7 @@ void AccuracyMeter::State::start_measurement(const std::shared_ptr<State>& self,
                 self->status.flip = measured->flip;
                 self->error_map = self->renderer.upload_thumbnail(measured->error_map);
                 self->flip_map = self->renderer.upload_thumbnail(measured->flip_map);
+                self->signed_map = self->renderer.upload_thumbnail(measured->signed_map);
             };
         },
         [self](const std::string&) { self->job = 0; });
@@ -165,6 +170,7 @@ AccuracyMeter::AccuracyMeter(Renderer& renderer, Jobs& jobs)
                        .others = {},
                        .error_map = {},
                        .flip_map = {},
+                       .signed_map = {},
                        .status = {}}) {}
 
 AccuracyMeter::~AccuracyMeter() = default;
@@ -179,7 +185,7 @@ void AccuracyMeter::update(const Scene& scene, glm::ivec2 size_px, const ui::Acc
     bool reference = settings.meter || scene.view.shading == Shading::Reference;
     for (int i = 0; i < (settings.split ? 2 : 1); ++i) {
         const ui::Layer& layer = layers[i];
-        measure = measure || layer.kind == ui::Layer::Error || layer.kind == ui::Layer::Flip;
+        measure = measure || is_map(layer);
         reference =
             reference || measure || (layer.kind == ui::Layer::Mode && layer.mode == Shading::Reference);
         if (layer.kind == ui::Layer::Mode && layer.mode != Shading::Reference)
@@ -204,14 +210,20 @@ ui::Viewport::Picture AccuracyMeter::picture(ui::Layer layer) const {
     };
     if (layer.kind == ui::Layer::Error) return map(state.error_map);
     if (layer.kind == ui::Layer::Flip) return map(state.flip_map);
-    if (layer.kind != ui::Layer::Mode) return {};
+    if (layer.kind == ui::Layer::Signed) return map(state.signed_map);
+    const RenderTarget* drawn = target(layer);
+    return drawn ? ui::Viewport::Picture{Renderer::display_texture(*drawn), true} : ui::Viewport::Picture{};
+}
+
+const RenderTarget* AccuracyMeter::target(ui::Layer layer) const {
+    const State& state = *state_;
+    if (layer.kind != ui::Layer::Mode) return nullptr;
     if (layer.mode == Shading::Reference) {
-        if (!state.wanted || !state.gathering || state.reference->progress().samples == 0) return {};
-        return {Renderer::display_texture(*state.reference_target), true};
+        const bool there = state.wanted && state.gathering && state.reference->progress().samples > 0;
+        return there ? state.reference_target.get() : nullptr;
     }
     const auto found = state.others.find(layer.mode);
-    if (found == state.others.end() || !found->second.target) return {};
-    return {Renderer::display_texture(*found->second.target), true};
+    return found != state.others.end() ? found->second.target.get() : nullptr;
 }
 
 const ui::AccuracyStatus& AccuracyMeter::status() const { return state_->status; }

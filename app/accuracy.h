@@ -24,6 +24,8 @@ public:
     bool busy() const;
     /// No texture for what is not there yet: the shaded picture stands in.
     ui::Viewport::Picture picture(ui::Layer layer) const;
+    /// Where that is drawn; nullptr for maps and what is not there yet.
+    const RenderTarget* target(ui::Layer layer) const;
     const ui::AccuracyStatus& status() const;
 
 private:

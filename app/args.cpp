@@ -200,6 +200,10 @@ void add_report(CLI::App& root, Args& args) {
     app->add_option("--size", args.report.picture_px, "Side of a picture in pixels (default 640)")
         ->check(CLI::Range(32, 4096))
         ->type_name("N");
+    app->add_option("--reference", args.report.reference_samples,
+                    "Also say how far the shading is from the reference of N points a pixel")
+        ->check(CLI::Range(8, 65536))
+        ->type_name("N");
     app->add_flag("--no-hints", args.report.no_hints,
                   "Do not compute what would bring the renders closer to the photos");
 }
@@ -249,6 +253,100 @@ void add_bench(CLI::App& root, Args& args) {
     app->add_option("--property", args.bench.properties, "stability: only these properties")->type_name("ID");
 }
 
+glm::vec2 parse_pair(const std::string& text, const char* what) {
+    const std::vector<float> values = parse_numbers(text, ',');
+    if (values.size() != 2) throw CLI::ValidationError(std::string(what) + ", not '" + text + "'");
+    return {values[0], values[1]};
+}
+
+void add_sample(CLI::App& app, MapsArgs& args) {
+    app.add_option_function<std::vector<std::string>>(
+           "--corners",
+           [&args](const std::vector<std::string>& texts) {
+               for (const std::string& text : texts)
+                   args.corners.push_back(parse_pair(text, "a corner is X,Y in pixels of the photo"));
+           },
+           "The sample's corners: upper left, upper right, lower right, lower left (default: the whole "
+           "photo)")
+        ->expected(4)
+        ->type_name("X,Y");
+    const auto add_card = [&](const char* name, bool white, const char* help) {
+        return app
+            .add_option_function<std::string>(
+                name,
+                [&args, white](const std::string& text) {
+                    args.card = parse_pair(text, "a card lies at X,Y in pixels of the photo");
+                    args.white = white;
+                },
+                help)
+            ->type_name("X,Y");
+    };
+    add_card("--grey", false, "Where an 18 % grey card lies: sets exposure and white balance")
+        ->excludes(add_card("--white", true, "The same of white paper"));
+    add_size(app, "--size", args.settings.size_px, "Size of the maps (default 1024x1024)");
+    app.add_option("--even", args.settings.even_degree,
+                   "How freely the light's gradient is followed: 0 (not at all) to 4 (default 3)")
+        ->check(CLI::Range(0, 4))
+        ->type_name("N");
+    app.add_flag_callback(
+        "--no-tile", [&args] { args.settings.tileable = false; },
+        "Leave the borders as they are: the maps do not tile");
+}
+
+void add_surface(CLI::App& app, MapsArgs& args) {
+    MapSettings& settings = args.settings;
+    app.add_option("--remove-shading", settings.shading_removed,
+                   "Share of the light and shade of small forms to take out of the albedo (default 0)")
+        ->check(CLI::Range(0.0, 1.0));
+    app.add_option_function<std::string>(
+           "--lit-from",
+           [&settings](const std::string& text) {
+               const glm::vec2 lamp = parse_pair(text, "a lamp stands at AZIMUTH,ELEVATION in degrees");
+               if (lamp.y < 5.0f || lamp.y > 85.0f)
+                   throw CLI::ValidationError("a lamp's elevation is 5 to 85 degrees, not '" + text + "'");
+               settings.relief_from = ReliefFrom::Light;
+               settings.light_azimuth_deg = lamp.x;
+               settings.light_elevation_deg = lamp.y;
+           },
+           "Tell height from a lamp's shading: 0 right of the sample, 90 above it, and so many degrees over "
+           "it "
+           "(default: dark is deep)")
+        ->type_name("AZIMUTH,ELEVATION");
+    app.add_option("--scale", settings.relief_scale, "Largest form of the height, in widths (default 0.1)")
+        ->check(CLI::Range(0.002, 1.0));
+    app.add_option("--strength", settings.relief_strength, "Of height and normals (default 1)")
+        ->check(CLI::Range(0.0, 10.0));
+    app.add_option("--roughness", settings.roughness, "In the middle (default 0.6)")
+        ->check(CLI::Range(0.0, 1.0));
+    app.add_option("--roughness-contrast", settings.roughness_contrast, "Around that (default 0.4)")
+        ->check(CLI::Range(0.0, 1.0));
+    app.add_option("--ao-strength", settings.ao_strength, "How much deeper the height counts (default 1)")
+        ->check(CLI::Range(0.0, 4.0));
+    app.add_option("--ao-radius", settings.ao_radius, "How far it darkens, in widths (default 0.05)")
+        ->check(CLI::Range(0.002, 0.5));
+}
+
+void add_maps(CLI::App& root, MapsArgs& args) {
+    CLI::App* app = root.add_subcommand(
+        "maps", "Make a preset with albedo, normal, roughness and AO maps from a photo of a flat sample");
+    app->add_option("photo", args.photo, "PNG, JPEG, TIFF or EXR")->required()->type_name("PHOTO");
+    app->add_option("-o,--output", args.output, "The folder to write to")->required()->type_name("DIR");
+    app->add_option("--name", args.name, "Of the preset and its files (default: the photo's)");
+    add_sample(*app, args);
+    add_surface(*app, args);
+    app->add_option_function<std::vector<std::string>>(
+           "--only",
+           [&args](const std::vector<std::string>& maps) {
+               const auto has = [&](const char* map) { return std::ranges::find(maps, map) != maps.end(); };
+               args.choice = {has("albedo"), has("normal"), has("roughness"), has("ao")};
+           },
+           "Write only these (the height goes with the normals)")
+        ->check(CLI::IsMember({"albedo", "normal", "roughness", "ao"}))
+        ->delimiter(',')
+        ->type_name("albedo,normal,roughness,ao");
+    app->add_flag("--force", args.force, "Replace files of these names");
+}
+
 /// A file named like a preset among --env values belongs to the presets: `compare --env sky sunset
 /// gold.json`.
 void sort_out_presets(RenderArgs& render) {
@@ -263,16 +361,17 @@ void sort_out_presets(RenderArgs& render) {
 
 constexpr std::array kCommands{std::pair{"edit", Command::Edit},       std::pair{"render", Command::Render},
                                std::pair{"compare", Command::Compare}, std::pair{"report", Command::Report},
-                               std::pair{"bake", Command::Bake},       std::pair{"bench", Command::Bench},
-                               std::pair{"check", Command::Check},     std::pair{"list", Command::List}};
+                               std::pair{"maps", Command::Maps},       std::pair{"bake", Command::Bake},
+                               std::pair{"bench", Command::Bench},     std::pair{"check", Command::Check},
+                               std::pair{"list", Command::List}};
 
 /// `patina gold.json` means `patina edit gold.json`.
 std::vector<std::string> with_default_command(std::vector<std::string> words) {
-    constexpr std::array kRootOptions{"--help", "-h", "--version"};
+    constexpr std::array root_options{"--help", "-h", "--version"};
     const bool named =
         !words.empty() &&
         (std::ranges::any_of(kCommands, [&](const auto& row) { return words.front() == row.first; }) ||
-         std::ranges::any_of(kRootOptions, [&](const char* option) { return words.front() == option; }));
+         std::ranges::any_of(root_options, [&](const char* option) { return words.front() == option; }));
     if (!named) words.insert(words.begin(), "edit");
     return words;
 }
@@ -293,6 +392,7 @@ ParsedArgs parse_args(const std::vector<std::string>& words) {
     add_edit(root, args);
     add_render_and_compare(root, args);
     add_report(root, args);
+    add_maps(root, args.maps);
     add_bake(root, args);
     add_bench(root, args);
     root.add_subcommand("check", "Validate presets and say what is wrong and where")

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/core/camera.h"
+#include "renderer/core/map_settings.h"
 #include "renderer/core/view.h"
 
 #include <glm/vec2.hpp>
@@ -50,6 +51,7 @@ struct ReportArgs {
     std::string output;      ///< .html or .pdf
     int picture_px = 640;
     bool no_hints = false;
+    int reference_samples = 0;  ///< a pixel; 0: the renders are not held against the reference
 };
 struct BakeArgs {
     std::string environment;
@@ -59,6 +61,17 @@ struct BakeArgs {
     bool keep_lights = false;
     std::string format = "exr";
     std::string stats;  ///< as in RenderArgs
+};
+struct MapsArgs {
+    std::string photo;
+    std::string output;              ///< folder
+    std::string name;                ///< of the preset and the files; empty: the photo's
+    std::vector<glm::vec2> corners;  ///< four, in pixels of the photo; empty: the whole photo
+    std::optional<glm::vec2> card;   ///< in pixels of the photo
+    bool white = false;              ///< it is white paper instead of an 18 % grey card
+    MapSettings settings;            ///< but for corners and gain
+    MapChoice choice;
+    bool force = false;
 };
 struct BenchArgs {
     std::vector<std::string> names;         ///< empty: all
@@ -70,12 +83,13 @@ struct BenchArgs {
     std::vector<std::string> properties;  ///< of stability; empty: all
 };
 
-enum class Command { Edit, Render, Compare, Report, Bake, Bench, Check, List };
+enum class Command { Edit, Render, Compare, Report, Maps, Bake, Bench, Check, List };
 struct Args {
     Command command = Command::Edit;
     EditArgs edit;
     RenderArgs render;
     ReportArgs report;
+    MapsArgs maps;
     BakeArgs bake;
     BenchArgs bench;
     std::vector<std::string> check;  ///< presets

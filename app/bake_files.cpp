@@ -1,6 +1,7 @@
 #include "app/bake_files.h"
 
 #include "app/ktx.h"
+#include "app/paths.h"
 #include "materials/text_io.h"
 #include "renderer/core/file_io.h"
 #include "renderer/core/image_io.h"
@@ -53,37 +54,38 @@ Json source_json(const Environment& environment) {
     return {{"id", environment.id}, {"width", environment.width}, {"height", environment.height}};
 }
 
-/// A name for files: what the environment is called, without what a file system or a web address may not
-/// like.
-std::string file_stem(const Environment& environment) {
-    std::string stem = path_to_utf8(utf8_to_path(environment.id).stem());
-    for (char& c : stem) {
-        const bool plain =
-            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
-        if (!plain && static_cast<unsigned char>(c) < 0x80) c = '_';
-    }
-    return stem.empty() ? "environment" : stem;
-}
-
 }  // namespace
 
-Json write_bake_exr(const fs::path& folder, const Environment& environment, const BakedEnvironment& baked) {
+Json write_bake_exr(const fs::path& folder, const Environment& environment, const BakedEnvironment& baked,
+                    const ParallelFor& parallel_for) {
     Json json{{"source", source_json(environment)}, {"size", 0}, {"levels", Json::array()}};
+    struct Strip {
+        std::string file;
+        const CubeMap* cube;
+    };
+    std::vector<Strip> strips;
     int largest = 0;
     for (std::size_t k = 0; k < baked.levels.size(); ++k) {
         const PrefilteredLevel& level = baked.levels[k];
         const std::string number = std::to_string(k);
-        const std::string file = "level_" + std::string(number.size() < 2 ? "0" : "") + number + ".exr";
-        save_image(folder / file, face_strip(level.cube));
-        json["levels"].push_back({{"file", file}, {"size", level.cube.size}, {"roughness", level.roughness}});
+        strips.push_back(
+            {"level_" + std::string(number.size() < 2 ? "0" : "") + number + ".exr", &level.cube});
+        json["levels"].push_back(
+            {{"file", strips.back().file}, {"size", level.cube.size}, {"roughness", level.roughness}});
         largest = std::max(largest, level.cube.size);
     }
     json["size"] = largest;
-    save_image(folder / "irradiance.exr", face_strip(baked.irradiance));
+    strips.push_back({"irradiance.exr", &baked.irradiance});
     json["irradiance"] = {{"file", "irradiance.exr"}, {"size", baked.irradiance.size}};
-    const BrdfTable table = bake_brdf_table();
-    save_image(folder / "brdf.exr", brdf_picture(table));
-    json["brdf"] = {{"file", "brdf.exr"}, {"size", table.size}, {"x", "sqrt(NoV)"}, {"y", "roughness"}};
+    json["brdf"] = {{"file", "brdf.exr"}, {"size", kBrdfTableSize}, {"x", "sqrt(NoV)"}, {"y", "roughness"}};
+    // Compressing takes longer than baking. The table is one more task: it is computed first.
+    parallel_for(int(strips.size()) + 1, [&](int task) {
+        if (task == 0)
+            save_image(folder / "brdf.exr", brdf_picture(bake_brdf_table()));
+        else
+            save_image(folder / strips[std::size_t(task) - 1].file,
+                       face_strip(*strips[std::size_t(task) - 1].cube));
+    });
     json["lights"] = Json::array();
     for (const ExtractedLight& light : baked.lights) json["lights"].push_back(light_json(light));
     return json;
@@ -91,7 +93,7 @@ Json write_bake_exr(const fs::path& folder, const Environment& environment, cons
 
 Json write_bake_ktx(const fs::path& folder, const Environment& environment, const BakedEnvironment& baked) {
     const int exponent = ktx_exponent(baked, environment.id);
-    const std::string stem = file_stem(environment) + "_ibl";
+    const std::string stem = plain_stem(utf8_to_path(environment.id), "environment") + "_ibl";
     write_file(folder / utf8_to_path(stem + ".ktx"), to_ktx1(baked, exponent));
     write_file(folder / utf8_to_path(stem + ".ktx2"), to_ktx2(baked, exponent));
     Json json{

@@ -16,7 +16,8 @@ namespace patina {
 /// Both write into an existing folder and give what bake.json says of it (all but its timings). Throw
 /// std::runtime_error with one sentence.
 nlohmann::ordered_json write_bake_exr(const std::filesystem::path& folder, const Environment& environment,
-                                      const BakedEnvironment& baked);
+                                      const BakedEnvironment& baked,
+                                      const ParallelFor& parallel_for = serial_for);
 /// baked: bake_for_ktx's.
 nlohmann::ordered_json write_bake_ktx(const std::filesystem::path& folder, const Environment& environment,
                                       const BakedEnvironment& baked);

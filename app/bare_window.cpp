@@ -9,9 +9,10 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
+#include <iomanip>
 
 #ifndef _WIN32
 #include <sys/resource.h>
@@ -66,12 +67,11 @@ int main(int argc, char** argv) {
     draw_frame(window);
     const double at_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-    std::FILE* file = std::fopen(argv[3], "w");
-    if (!file) return 1;
-    std::fprintf(file,
-                 "{\"first_lit_frame\": {\"at_s\": %.6f, \"cpu_s\": %.6f, \"peak_memory_bytes\": %.0f}}\n",
-                 at_s, double(std::clock()) / double(CLOCKS_PER_SEC), peak_memory_bytes());
-    std::fclose(file);
+    std::ofstream file(argv[3]);
+    file << std::fixed << "{\"first_lit_frame\": {\"at_s\": " << at_s
+         << ", \"cpu_s\": " << double(std::clock()) / double(CLOCKS_PER_SEC)
+         << ", \"peak_memory_bytes\": " << std::setprecision(0) << peak_memory_bytes() << "}}\n";
+    if (!file.flush()) return 1;
     ImGui_ImplOpenGL3_Shutdown();
     ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();

@@ -85,6 +85,7 @@ std::vector<double> interleaved_medians_ms(const std::vector<std::function<void(
             times[i].push_back(milliseconds(actions[i]));
         }
     std::vector<double> medians;
+    medians.reserve(times.size());
     for (const auto& each : times) medians.push_back(median(each));
     return medians;
 }
@@ -103,6 +104,7 @@ Json bench_frame(const BenchContext& context) {
     for (const int side : {256, 512, 1024}) {
         const TargetHandle target = renderer.make_target({side, side});
         std::vector<std::function<void()>> actions;
+        actions.reserve(cases.size());
         for (FrameCase& each : cases)
             actions.push_back([&] {
                 renderer.draw(each.scene, *target);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
+#include <set>
 #include <vector>
 
 namespace patina {
@@ -93,6 +95,98 @@ std::string fetch_table(const Json& result) {
     return text;
 }
 
+/// Mean error of a mode over the cases that `value` finds a number in: "1.2 %".
+template <class Value>
+std::string mean_percent(const Json& result, const Json& mode, const Value& value) {
+    double sum = 0.0;
+    int count = 0;
+    for (const Json& each : result.at("cases")) {
+        if (each.at("mode") != mode.at("name")) continue;
+        if (const std::optional<double> error = value(each)) {
+            sum += *error;
+            ++count;
+        }
+    }
+    return count == 0 ? "" : number(100.0 * sum / count, 2) + " %";
+}
+
+std::string shading_summary(const Json& result) {
+    std::string text = "Mean relative rms error on the sphere over environments and roughness " +
+                       result.value("roughness_range", "") +
+                       "; cost of a frame, split sum = 1.\n\n| mode | F0 = 1 | F0 = 0.04, albedo 0.8 | cost "
+                       "|\n|---|---|---|---|\n";
+    for (const Json& mode : result.at("modes"))
+        text += "| " + mode.at("name").get<std::string>() + " | " +
+                number(100.0 * mode.at("rms").at("metal").get<double>(), 2) + " % | " +
+                number(100.0 * mode.at("rms").at("dielectric").get<double>(), 2) + " % | " +
+                number(mode.at("cost").get<double>(), 2) + " |\n";
+    return text;
+}
+
+/// One row a mode, one column a roughness.
+std::string shading_by_roughness(const Json& result, const std::string& material, const std::string& mesh) {
+    std::set<double> roughness;
+    for (const Json& each : result.at("cases"))
+        if (each.at("mesh") == mesh) roughness.insert(each.at("roughness").get<double>());
+    if (roughness.empty()) return {};
+    std::string text = "\n" + material + " " + mesh + ", by roughness.\n\n| mode |", rule = "|---|";
+    for (const double r : roughness) {
+        text += " " + number(r, 2) + " |";
+        rule += "---|";
+    }
+    text += "\n" + rule + "\n";
+    for (const Json& mode : result.at("modes")) {
+        text += "| " + mode.at("name").get<std::string>() + " |";
+        for (const double r : roughness)
+            text += " " +
+                    mean_percent(
+                        result, mode,
+                        [&](const Json& each) -> std::optional<double> {
+                            const bool counts = each.at("material") == material && each.at("mesh") == mesh &&
+                                                each.at("roughness").get<double>() == r;
+                            return counts ? std::optional(each.at("rms").get<double>()) : std::nullopt;
+                        }) +
+                    " |";
+        text += "\n";
+    }
+    return text;
+}
+
+/// One row a mode, one column a band of N·V on the sphere.
+std::string shading_by_NoV(const Json& result, const std::string& material) {
+    const Json& bands = result.at("NoV_bands");
+    std::string text = "\n" + material + " sphere, by N·V.\n\n| mode |", rule = "|---|";
+    for (std::size_t i = 0; i + 1 < bands.size(); ++i) {
+        text += " " + number(bands[i].get<double>(), 1) + "–" + number(bands[i + 1].get<double>(), 1) + " |";
+        rule += "---|";
+    }
+    text += "\n" + rule + "\n";
+    for (const Json& mode : result.at("modes")) {
+        text += "| " + mode.at("name").get<std::string>() + " |";
+        for (std::size_t i = 0; i + 1 < bands.size(); ++i)
+            text += " " +
+                    mean_percent(result, mode,
+                                 [&](const Json& each) -> std::optional<double> {
+                                     if (each.at("material") != material || !each.contains("rms_by_NoV"))
+                                         return {};
+                                     return each.at("rms_by_NoV").at(i).get<double>();
+                                 }) +
+                    " |";
+        text += "\n";
+    }
+    return text;
+}
+
+std::string shading_tables(const Json& result) {
+    std::string text = shading_summary(result);
+    for (const char* material : {"metal", "dielectric"}) {
+        for (const char* mesh : {"sphere", "shaderball"})
+            text += shading_by_roughness(result, material, mesh);
+        text += shading_by_NoV(result, material);
+    }
+    return text;
+}
+
 /// "12 (20)" with skipping and without.
 std::string both(const Json& row, const char* key, int digits) {
     return number(row.at("skip").at(key).get<double>(), digits) + " (" +
@@ -141,6 +235,7 @@ std::string skip_tables(const Json& result) {
 
 std::string bench_markdown(std::string_view benchmark, const Json& result) {
     if (benchmark == "skip") return skip_tables(result);
+    if (benchmark == "shading") return shading_tables(result);
     if (benchmark != "ibl") return {};
     std::string text = methods_table(result);
     if (result.contains("scaling")) text += scaling_table(result);

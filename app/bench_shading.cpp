@@ -4,15 +4,20 @@
 #include "app/jobs.h"
 #include "app/paths.h"
 #include "app/scene_loader.h"
+#include "renderer/core/camera.h"
 #include "renderer/core/metrics.h"
 #include "renderer/reference.h"
 
+#include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace patina {
@@ -40,9 +45,12 @@ std::vector<Way> ways() {
                         }});
     };
     add_mode(Shading::SplitSum, "split-sum");
-    for (const auto& mode : kShadings)
-        if (mode.value != Shading::SplitSum && mode.value != Shading::Reference)
-            add_mode(mode.value, std::string(mode.id));
+    add_mode(Shading::Course, "course");
+    add_mode(Shading::Fitted, "fitted, one tap");
+    list.push_back({"fitted, two taps", [](Renderer& renderer, Scene scene, RenderTarget& target) {
+                        scene.view.quality = Quality::High;
+                        renderer.draw(scene, target);
+                    }});
     add_rival(0, "dominant direction");
     for (const int samples : {8, 16, 32, 64})
         add_rival(samples, "run-time sampling " + std::to_string(samples));
@@ -54,12 +62,19 @@ struct Case {
     float roughness = 0.5f;
 };
 
+constexpr double kKnownTo = 5e-3;  ///< where the reference stops: 95 of 100 pixels are known to that
+
 struct Extent {
-    int side_px = 192;
-    int samples = 4096;
+    int side_px = 144;
+    int samples = 2048;  ///< of the reference, where it does not stop before
     std::vector<float> roughness{0.05f, 0.08f, 0.12f, 0.2f, 0.3f, 0.45f, 0.65f, 1.0f};
-    std::vector<std::string> meshes{"sphere", "shaderball"};
+    std::vector<float> concave_roughness{0.12f, 0.3f, 0.65f};
     std::vector<std::string> environments;
+
+    /// On which meshes, at which roughness.
+    std::vector<std::pair<std::string, std::vector<float>>> meshes() const {
+        return {{"sphere", roughness}, {"shaderball", concave_roughness}};
+    }
 };
 
 Extent extent_of(const BenchContext& context) {
@@ -70,7 +85,7 @@ Extent extent_of(const BenchContext& context) {
     extent.side_px = 96;
     extent.samples = 2048;
     extent.roughness = {0.08f, 0.3f, 0.65f};
-    extent.meshes = {"sphere"};
+    extent.concave_roughness = {};
     if (extent.environments.size() > 3)
         extent.environments.erase(extent.environments.begin() + 1, extent.environments.end() - 2);
     return extent;
@@ -87,16 +102,50 @@ void set_material(Scene& scene, const Case& each) {
 struct Truth {
     Image radiance, mask;
     double half_width = 0.0;
+    int samples = 0;
 };
 Truth truth_of(Renderer& renderer, const Scene& scene, const Extent& extent) {
     const TargetHandle target = renderer.make_target(glm::ivec2(extent.side_px), 1, TargetPrecision::Full);
     Reference reference(renderer, glm::ivec2(extent.side_px),
-                        {.max_samples = extent.samples, .tolerance = 0.0, .pixel_filter = false});
+                        {.max_samples = extent.samples, .tolerance = kKnownTo});
     reference.restart(scene);
     reference.finish();
     reference.write(*target);
     return {renderer.read_radiance(*target), reference.inner_pixels(),
-            reference.progress().confidence->median};
+            reference.progress().confidence->median, reference.progress().samples};
+}
+
+/// Bounds of the bands of N·V that the sphere is judged in.
+constexpr std::array kBands{0.0, 0.3, 0.6, 1.0};
+
+/// N·V at the middle of a pixel of the unit sphere as the default camera sees it; negative beside it.
+double sphere_NoV(int side_px, int x, int y) {
+    const Camera camera;
+    const double half = std::tan(0.5 * glm::radians(double(camera.fov_deg)));
+    const auto screen = [&](int i) { return half * (2.0 * (i + 0.5) / side_px - 1.0); };
+    const double tan2 = screen(x) * screen(x) + screen(y) * screen(y);
+    // The ray passes the middle at distance · sin of its angle, which is also the sine between N and V.
+    const double sine2 = double(camera.distance) * camera.distance * tan2 / (1.0 + tan2);
+    return sine2 < 1.0 ? std::sqrt(1.0 - sine2) : -1.0;
+}
+
+Image band_of(const Image& mask, double low, double high) {
+    Image band = mask;
+    for (int y = 0; y < mask.height; ++y)
+        for (int x = 0; x < mask.width; ++x) {
+            const double NoV = sphere_NoV(mask.width, x, y);
+            if (NoV < low || NoV > high) set_texel(band, x, y, 0, 0.0f);
+        }
+    return band;
+}
+
+/// The error of a picture of the sphere in each band.
+Json errors_by_NoV(const Image& picture, const Truth& truth) {
+    Json list = Json::array();
+    for (std::size_t i = 0; i + 1 < kBands.size(); ++i)
+        list.push_back(
+            picture_error(picture, truth.radiance, band_of(truth.mask, kBands[i], kBands[i + 1])).rms);
+    return list;
 }
 
 /// What is measured with, and what has come of it.
@@ -105,7 +154,7 @@ struct Shop {
     SceneLoader& loader;
     const std::vector<Way>& ways;
     const Extent& extent;
-    std::vector<std::map<std::string, std::vector<double>>> rms;  ///< of each way, by material
+    std::vector<std::map<std::string, std::vector<double>>> rms;  ///< of each way, by material; the sphere's
     Json cases = Json::array();
 };
 
@@ -121,9 +170,9 @@ void measure_case(Shop& shop, const Case& each) {
         shop.renderer.make_target(glm::ivec2(shop.extent.side_px), 1, TargetPrecision::Full);
     for (std::size_t i = 0; i < shop.ways.size(); ++i) {
         shop.ways[i].draw(shop.renderer, scene, *target);
-        const PictureError error =
-            picture_error(shop.renderer.read_radiance(*target), truth.radiance, truth.mask);
-        shop.rms[i][each.material].push_back(error.rms);
+        const Image picture = shop.renderer.read_radiance(*target);
+        const PictureError error = picture_error(picture, truth.radiance, truth.mask);
+        if (each.mesh == "sphere") shop.rms[i][each.material].push_back(error.rms);
         shop.cases.push_back({{"environment", each.environment},
                               {"mesh", each.mesh},
                               {"material", each.material},
@@ -132,7 +181,9 @@ void measure_case(Shop& shop, const Case& each) {
                               {"rms", error.rms},
                               {"p95", error.p95},
                               {"max", error.max},
-                              {"reference_half_width", truth.half_width}});
+                              {"reference_half_width", truth.half_width},
+                              {"reference_samples", truth.samples}});
+        if (each.mesh == "sphere") shop.cases.back()["rms_by_NoV"] = errors_by_NoV(picture, truth);
     }
 }
 
@@ -172,13 +223,13 @@ Json bench_shading(const BenchContext& context) {
     Shop shop{.renderer = renderer, .loader = loader, .ways = list, .extent = extent, .rms = {}};
     shop.rms.resize(list.size());
     for (const std::string& environment : extent.environments)
-        for (const std::string& mesh : extent.meshes)
+        for (const auto& [mesh, roughnesses] : extent.meshes())
             for (const char* material : {"metal", "dielectric"})
-                for (const float roughness : extent.roughness)
+                for (const float roughness : roughnesses)
                     measure_case(shop, {environment, mesh, material, roughness});
     const std::vector<double> ms = frame_ms(list, loader, renderer, context);
     Json json{{"renderer", gl.description()},   {"environments", extent.environments},
-              {"roughness_range", "0.05 to 1"}, {"reference_samples", extent.samples},
+              {"roughness_range", "0.05 to 1"}, {"most_reference_samples", extent.samples},
               {"side_px", extent.side_px},      {"modes", Json::array()}};
     if (context.quick) json["roughness_range"] = "0.08, 0.3, 0.65";
     std::printf("%-24s %12s %14s %10s\n", "mode", "F0 = 1", "F0 = 0.04", "cost");
@@ -191,6 +242,7 @@ Json bench_shading(const BenchContext& context) {
                                  {"cost", ms[i] / ms[0]},
                                  {"rms", {{"metal", metal}, {"dielectric", dielectric}}}});
     }
+    json["NoV_bands"] = kBands;
     json["cases"] = std::move(shop.cases);
     return json;
 }

@@ -28,7 +28,7 @@ std::vector<Property> chosen(const std::vector<std::string>& ids) {
             continue;
         }
         std::string known;
-        for (const Property& each : all) known += " " + std::string(each.id);
+        for (const Property& each : all) known.append(" ").append(each.id);
         throw std::runtime_error("there is no property '" + id + "'; there are:" + known);
     }
     return some;

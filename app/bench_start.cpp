@@ -60,6 +60,7 @@ Start start_once(const StartCase& each, const fs::path& folder) {
 
 double median_of(const std::vector<Start>& starts, double Start::*member) {
     std::vector<double> values;
+    values.reserve(starts.size());
     for (const Start& each : starts) values.push_back(each.*member);
     std::ranges::nth_element(values, values.begin() + std::ptrdiff_t(values.size() / 2));
     return values[values.size() / 2];

@@ -115,8 +115,9 @@ int run_bake(const BakeArgs& args, const Registry& registry) {
     for (const std::string& note : baked->notes) say(args.environment + ": " + note);
 
     const auto start = std::chrono::steady_clock::now();
-    Json json = args.format == "ktx" ? write_bake_ktx(folder.path(), environment, *baked)
-                                     : write_bake_exr(folder.path(), environment, *baked);
+    Json json = args.format == "ktx"
+                    ? write_bake_ktx(folder.path(), environment, *baked)
+                    : write_bake_exr(folder.path(), environment, *baked, jobs.parallel_for());
     const BakeTimings& timings = baked->timings;
     json["timings_ms"] = {{"decode", decode_ms},         {"transform", timings.transform_ms},
                           {"levels", timings.levels_ms}, {"irradiance", timings.irradiance_ms},

@@ -39,7 +39,7 @@ std::vector<const Benchmark*> chosen(const std::vector<std::string>& names) {
     for (const std::string& name : names) {
         if (std::ranges::find(kBenchmarks, name, &Benchmark::name) != kBenchmarks.end()) continue;
         std::string known;
-        for (const Benchmark& each : kBenchmarks) known += " " + std::string(each.name);
+        for (const Benchmark& each : kBenchmarks) known.append(" ").append(each.name);
         throw std::runtime_error("there is no benchmark '" + name + "'; there are:" + known);
     }
     return benchmarks;

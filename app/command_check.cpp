@@ -1,6 +1,7 @@
 // patina check: what is wrong with a preset or a comparison, and where.
 #include "app/commands.h"
 #include "app/comparison_file.h"
+#include "app/console.h"
 #include "app/paths.h"
 #include "app/scene_loader.h"
 #include "materials/material_io.h"
@@ -12,24 +13,26 @@ namespace patina {
 
 namespace {
 
+void print(const std::string& preset, const std::string& sentence) {
+    std::printf("%s\n", harmless(preset + ": " + sentence).c_str());
+}
+
 /// Prints what is wrong; true if the preset can be used as it is.
 bool check_preset(const std::string& preset, const Registry& registry) {
     bool sound = true;
     const auto problem = [&](const std::string& sentence) {
-        std::printf("%s: %s\n", preset.c_str(), sentence.c_str());
+        print(preset, sentence);
         sound = false;
     };
     try {
         const std::filesystem::path file = find_preset(preset);
         if (is_comparison_file(file)) {
-            for (const std::string& note : load_comparison(file).notes)
-                std::printf("%s: note: %s\n", preset.c_str(), note.c_str());
-            std::printf("%s: ok\n", preset.c_str());
+            for (const std::string& note : load_comparison(file).notes) print(preset, "note: " + note);
+            print(preset, "ok");
             return true;
         }
         const LoadedMaterial loaded = load_material(file);
-        for (const std::string& note : loaded.notes)
-            std::printf("%s: note: %s\n", preset.c_str(), note.c_str());
+        for (const std::string& note : loaded.notes) print(preset, "note: " + note);
         for (const MapSource& source : map_sources(loaded.material, file)) {
             try {
                 load_map(registry, source);
@@ -40,7 +43,7 @@ bool check_preset(const std::string& preset, const Registry& registry) {
     } catch (const std::runtime_error& error) {
         problem(error.what());
     }
-    if (sound) std::printf("%s: ok\n", preset.c_str());
+    if (sound) print(preset, "ok");
     return sound;
 }
 

@@ -1,5 +1,6 @@
 // patina list: what there is to name on the command line, and every part that came through the registry.
 #include "app/commands.h"
+#include "app/console.h"
 #include "materials/material_io.h"
 #include "materials/text_io.h"
 
@@ -10,7 +11,7 @@ namespace patina {
 namespace {
 
 void row(const std::string& name, const std::string& kind, const std::string& text) {
-    std::printf("%-18s %-20s %s\n", name.c_str(), kind.c_str(), text.c_str());
+    std::printf("%-18s %-20s %s\n", harmless(name).c_str(), harmless(kind).c_str(), harmless(text).c_str());
 }
 
 std::string extensions_of(const std::vector<std::string>& extensions) {

@@ -19,7 +19,8 @@ int run_report(const ReportArgs& args, const Registry& registry) {
                              .output = output,
                              .renderer = studio.context.description(),
                              .picture_px = args.picture_px,
-                             .hints = !args.no_hints});
+                             .hints = !args.no_hints,
+                             .reference_samples = args.reference_samples});
     do studio.progress.show("drawing the views", float(making.done()) / float(making.views()));
     while (making.step());
     save_report(output, making.finish());

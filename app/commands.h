@@ -10,6 +10,7 @@ namespace patina {
 int run_render(const RenderArgs& args, const Registry& registry);
 int run_compare(const RenderArgs& args, const Registry& registry);
 int run_report(const ReportArgs& args, const Registry& registry);
+int run_maps(const MapsArgs& args, const Registry& registry);
 int run_bake(const BakeArgs& args, const Registry& registry);
 int run_bench(const BenchArgs& args, const Registry& registry);
 int run_check(const std::vector<std::string>& presets, const Registry& registry);

@@ -58,6 +58,15 @@ Photo read_photo(JsonObject object) {
     return photo;
 }
 
+void read_camera(JsonObject object, Camera& camera) {
+    object.read_number("yaw_deg", kTurn, camera.yaw_deg);
+    object.read_number("pitch_deg", {-89.9f, 89.9f}, camera.pitch_deg);
+    object.read_number("distance", {1e-3f, 1e4f}, camera.distance);
+    object.read_number("fov_deg", {1.0f, 150.0f}, camera.fov_deg);
+    object.read_vector("target", kPlace, camera.target);
+    object.unknown();
+}
+
 void read_lighting(JsonObject& object, Lighting& light) {
     object.read_text("environment", light.environment);
     if (light.environment.empty())
@@ -67,6 +76,10 @@ void read_lighting(JsonObject& object, Lighting& light) {
     object.read_choice("tonemap", kTonemaps, light.tonemap);
     object.read_choice("background", kBackgrounds, light.background);
     object.read_vector("plain_color", kShare, light.plain_color);
+    if (auto camera = object.object("camera")) {
+        light.camera = Camera{};
+        read_camera(std::move(*camera), *light.camera);
+    }
     if (auto photo = object.object("photo")) light.photo = read_photo(std::move(*photo));
 }
 
@@ -75,15 +88,6 @@ void read_preset(JsonObject& object, ComparedPreset& preset) {
     if (preset.preset.empty())
         object.document().fail(object.pointer_of("preset"),
                                "is empty; it must be a preset's file or name, 'edited' or '-'");
-}
-
-void read_camera(JsonObject object, Camera& camera) {
-    object.read_number("yaw_deg", kTurn, camera.yaw_deg);
-    object.read_number("pitch_deg", {-89.9f, 89.9f}, camera.pitch_deg);
-    object.read_number("distance", {1e-3f, 1e4f}, camera.distance);
-    object.read_number("fov_deg", {1.0f, 150.0f}, camera.fov_deg);
-    object.read_vector("target", kPlace, camera.target);
-    object.unknown();
 }
 
 void check_schema(JsonObject& root) {
@@ -130,6 +134,14 @@ Json json_of(const Photo& photo) {
     return json;
 }
 
+Json json_of(const Camera& camera) {
+    return {{"yaw_deg", shortest_number(camera.yaw_deg)},
+            {"pitch_deg", shortest_number(camera.pitch_deg)},
+            {"distance", shortest_number(camera.distance)},
+            {"fov_deg", shortest_number(camera.fov_deg)},
+            {"target", json_of(camera.target)}};
+}
+
 void write_lighting(Json& json, const Lighting& light) {
     json["environment"] = light.environment;
     json["rotation_deg"] = shortest_number(light.rotation_deg);
@@ -137,16 +149,9 @@ void write_lighting(Json& json, const Lighting& light) {
     json["tonemap"] = named(kTonemaps, light.tonemap).id;
     json["background"] = named(kBackgrounds, light.background).id;
     if (light.plain_color != Lighting{}.plain_color) json["plain_color"] = json_of(light.plain_color);
+    if (light.camera) json["camera"] = json_of(*light.camera);
     if (light.photo) json["photo"] = json_of(*light.photo);
     add_unknown(json, light.unknown_json);
-}
-
-Json json_of(const Camera& camera) {
-    return {{"yaw_deg", shortest_number(camera.yaw_deg)},
-            {"pitch_deg", shortest_number(camera.pitch_deg)},
-            {"distance", shortest_number(camera.distance)},
-            {"fov_deg", shortest_number(camera.fov_deg)},
-            {"target", json_of(camera.target)}};
 }
 
 template <class Act>

@@ -99,6 +99,7 @@ bool ComparisonReport::step() {
                                           light.photo->region, scene, radiance);
         shot.photo->linear = {};  // not shown
     }
+    if (options_.reference_samples > 0) shot.error = scenes_.error(scene, options_.reference_samples);
     shots_.push_back(std::move(shot));
     return shots_.size() < places_.size();
 }
@@ -155,6 +156,24 @@ void ComparisonReport::add_photos(Report& report) const {
     report.sections.push_back(std::move(section));
 }
 
+void ComparisonReport::add_errors(Report& report) const {
+    if (options_.reference_samples <= 0) return;
+    ReportSection section{.heading = "Against the reference"};
+    ReportTable table{
+        .header = {"Material", "Light", "Error, rms", "95 % within", "Mean FLIP", "Known within"},
+        .rows = {}};
+    for (const Shot& shot : shots_)
+        table.rows.push_back({shot.material, shot.light, fixed("%.2f %%", 100.0 * shot.error->error.rms),
+                              fixed("%.2f %%", 100.0 * shot.error->error.p95),
+                              fixed("%.3f", shot.error->flip), fixed("%.2f %%", 100.0 * shot.error->known)});
+    section.table = std::move(table);
+    section.notes.push_back("The shading against the reflectance integral, sampled with " +
+                            std::to_string((options_.reference_samples + 7) / 8 * 8) +
+                            " points a pixel, as shares of the light on the object; the last column is how "
+                            "well the samples know it.");
+    report.sections.push_back(std::move(section));
+}
+
 ReportSection ComparisonReport::material_section(const std::string& preset, const Material& material) const {
     ReportSection section{.heading = "Material: " + material.name};
     if (!material.source.empty()) section.paragraphs.push_back("Values from: " + material.source);
@@ -207,7 +226,7 @@ ReportSection ComparisonReport::lights() const {
 
 std::string ComparisonReport::render_command(const Shot& shot) const {
     const Lighting& light = lighting_at(comparison_, shot.place);
-    const Camera& camera = comparison_.camera;
+    const Camera& camera = camera_of(comparison_, light);
     const ComparedPreset& preset = preset_at(comparison_, shot.place);
     std::string command = "patina render " + quoted(preset.preset) + " --mesh " + quoted(comparison_.mesh) +
                           " --env " + quoted(light.environment);
@@ -250,6 +269,7 @@ Report ComparisonReport::finish() {
                   .made_with = "Made with Patina " PATINA_VERSION};
     report.sections.push_back(sheet());
     add_photos(report);
+    add_errors(report);
     for (const auto& [preset, material] : materials_)
         report.sections.push_back(material_section(preset, material));
     report.sections.push_back(lights());

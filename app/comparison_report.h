@@ -17,6 +17,7 @@ struct ComparisonReportOptions {
     std::string renderer;          ///< the GL renderer and version that drew it
     int picture_px = 640;          ///< side of a picture
     bool hints = true;             ///< compute what would bring the renders closer to the photos
+    int reference_samples = 0;     ///< a pixel; 0: the renders are not held against the reference
 };
 
 /// Makes a report view by view, so that a window can go on in between.
@@ -37,10 +38,12 @@ private:
         std::string material, light;
         Image picture;
         std::optional<PhotoShot> photo;
+        std::optional<ReferenceError> error;
     };
     const Material& material_of(const std::string& preset) const;
     ReportSection sheet() const;
     void add_photos(Report& report) const;
+    void add_errors(Report& report) const;
     ReportSection material_section(const std::string& preset, const Material& material) const;
     ReportSection lights() const;
     ReportSection making() const;

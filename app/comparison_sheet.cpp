@@ -2,6 +2,8 @@
 
 #include "app/paths.h"
 #include "app/sheet.h"
+#include "renderer/core/flip.h"
+#include "renderer/reference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -203,6 +205,7 @@ Scene ComparisonScenes::scene(ViewPlace place) {
     const Lighting& light = lighting_at(comparison_, place);
     scene.environment = loader_.environment(light.environment);
     scene.view = view_of(comparison_, light);
+    scene.camera = camera_of(comparison_, light);
     if (is_reference(scene.view))
         throw std::runtime_error(
             "a comparison's views are drawn at once; the reference is drawn view by view with "
@@ -232,6 +235,24 @@ Image ComparisonScenes::radiance(const Scene& scene, glm::ivec2 size_px) {
     renderer_.draw(scene, to, reuse());
     return renderer_.read_radiance(to);
 }
+ReferenceError ComparisonScenes::error(const Scene& scene, int samples) {
+    constexpr glm::ivec2 size(128);
+    Scene truth = scene;
+    truth.view.shading = Shading::Reference;
+    Reference reference(renderer_, size, {.max_samples = (samples + 7) / 8 * 8, .tolerance = 0.0});
+    reference.restart(truth);
+    reference.finish();
+    const TargetHandle gathered = renderer_.make_target(size, 1, TargetPrecision::Full);
+    reference.write(*gathered);
+    const TargetHandle shaded = renderer_.make_target(size, 4, TargetPrecision::Full);
+    renderer_.draw(scene, *shaded);
+    const Image expected = renderer_.read_radiance(*gathered), found = renderer_.read_radiance(*shaded),
+                mask = reference.inner_pixels();
+    const auto& known = reference.progress().confidence;
+    return {picture_error(found, expected, mask), mean_value(hdr_flip(expected, found), mask),
+            known ? known->p95 : 0.0};
+}
+
 Image ComparisonScenes::display(const Scene& scene, glm::ivec2 size_px) {
     RenderTarget& to = target(size_px);
     renderer_.draw(scene, to, reuse());

@@ -6,7 +6,10 @@
 
 namespace patina {
 
-/// One line on standard error: "patina: …".
+/// On one line, and without what a terminal takes for commands: names and keys come from strangers' files.
+std::string harmless(std::string_view text);
+
+/// One line on standard error, harmless: "patina: …".
 void say(std::string_view sentence);
 
 /// A progress line on standard error, rewritten in place; silent unless standard error is a terminal.

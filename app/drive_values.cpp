@@ -75,6 +75,15 @@ std::string photo_value(const DriveView& view, float Photo::*member) {
     return text_of(photo.*member);
 }
 
+/// Linear radiance, then display values; "none".
+std::string probe_text(const std::optional<ui::PixelValue>& value) {
+    if (!value) return "none";
+    std::string text;
+    for (int c = 0; c < 3; ++c) text += text_of(value->radiance[c]) + ",";
+    for (int c = 0; c < 3; ++c) text += std::to_string(value->display[c]) + (c < 2 ? "," : "");
+    return text;
+}
+
 using Value = std::string (*)(const DriveView&);
 struct NamedValue {
     const char* key;
@@ -131,6 +140,8 @@ constexpr std::array kValues{
                    return text_of(
                        v.editor.photos.views[std::size_t(v.editor.ui.sheet_selected)].residual.delta_e);
                }},
+    NamedValue{"probe_first", [](const DriveView& v) { return probe_text(v.editor.probe.first); }},
+    NamedValue{"probe_second", [](const DriveView& v) { return probe_text(v.editor.probe.second); }},
     NamedValue{"sheet_file", [](const DriveView& v) { return path_to_utf8(v.editor.sheet.file); }},
     NamedValue{"sheet_rotations",
                [](const DriveView& v) {

@@ -98,7 +98,8 @@ bool Loop::update_reconciler() {
     int height_px = 1;
     for (const DrawnView& view : sheet_views_)
         if (view.target) height_px = std::max(height_px, Renderer::size_px(*view.target).y);
-    for (WantedPicture& picture : further) picture.sight = {editor_.camera, height_px};
+    for (std::size_t view = 0; view < further.size(); ++view)
+        further[view].sight = {camera_of_sheet(editor_, view), height_px};
     return editor_.reconciler.update(editor_.document, editor_.opened, sight(), further);
 }
 
@@ -162,7 +163,7 @@ void Loop::frame() {
     ViewBinding edited = bound;
     ui::PanelContext context{.material = editor_.document.material,
                              .view = edited.view,
-                             .camera = editor_.camera,
+                             .camera = edited.camera,
                              .mesh = edited.mesh,
                              .environment = edited.environment,
                              .ui = editor_.ui,
@@ -180,6 +181,10 @@ void Loop::frame() {
     context.sheet = editor_.document.sheet ? &*editor_.document.sheet : nullptr;
     fill_sheet(context);
     fill_viewport(context.viewport);
+    fill_probe(context);
+    editor_.probe = context.probe;
+    if (editor_.ab.map) context.ab_map = {Renderer::texture_of(*editor_.ab.map), false};
+    context.maps_status = maps_status(editor_);
     context.work = &renderer_.work();
     context.unsaved = editor_.unsaved ? &*editor_.unsaved : nullptr;
     context.recovery = editor_.recovery_question ? &*editor_.recovery_question : nullptr;
@@ -212,11 +217,15 @@ void Loop::after_frame(const ui::PanelContext& context) {
     measure_view(context.result.viewport_size_px,
                  context.result.item_active || context.result.viewport_active);
     draw_sheet(context.result.sheet);
+    std::vector<DrawnPhotoView> drawn;
     for (const int seen : sheet_seen_) {
         const DrawnView& shown = sheet_views_[std::size_t(seen)];
-        update_photo(editor_,
-                     {std::size_t(seen), shown.has_drawn ? shown.target.get() : nullptr, shown.times});
+        drawn.push_back({std::size_t(seen), shown.has_drawn ? shown.target.get() : nullptr, shown.times});
+        update_photo(editor_, drawn.back());
     }
+    update_ab(editor_, drawn);
+    update_maps(editor_);
+    probed_ = context.result.probed;
     animating_ = context.result.wants_redraw;
     if (editor_.clipboard) window_.set_clipboard(*std::exchange(editor_.clipboard, std::nullopt));
 }
@@ -267,6 +276,7 @@ void Loop::live() {
     while (!editor_.quit) {
         window_.wait(sleep_s());
         const double begin_ms = thread_work_ms();
+        window_.require_context();
         drive();
         take_events();
         think();

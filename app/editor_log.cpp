@@ -1,3 +1,4 @@
+#include "app/console.h"
 #include "app/editor_state.h"
 
 #include <array>
@@ -24,7 +25,8 @@ std::string time_of_day() {
 
 }  // namespace
 
-void log_line(Editor& editor, ui::Severity severity, const std::string& sentence) {
+void log_line(Editor& editor, ui::Severity severity, const std::string& words) {
+    const std::string sentence = harmless(words);
     std::vector<ui::LogLine>& log = editor.status.log;
     if (!log.empty() && log.back().text == sentence && log.back().severity == severity) {
         ++log.back().count;

@@ -50,6 +50,7 @@ private:
     Sight sight() const;
     void measure_view(glm::ivec2 size_px, bool held);
     void fill_viewport(ui::Viewport& viewport) const;
+    void fill_probe(ui::PanelContext& context);
     void fill_status();
     void fill_thumbnails();
     void after_frame(const ui::PanelContext& context);
@@ -99,6 +100,7 @@ private:
     std::optional<ProcessMark> first_lit_frame_;
     std::string window_title_;
     std::optional<ui::Drop> drop_;
+    std::optional<ui::ProbedPoint> probed_;  ///< where the mouse was in the last frame
 };
 
 }  // namespace patina

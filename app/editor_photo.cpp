@@ -67,7 +67,7 @@ void read_photo(Editor& editor, const std::string& file) {
 }
 
 struct Compared {
-    Image overlay, heat;
+    Image in_view, overlay, heat;
     Residual residual;
 };
 
@@ -81,8 +81,9 @@ void compare_photo(Editor& editor, const DrawnPhotoView& drawn, const Photo& pho
     shown.job = editor.jobs.start(
         "Comparing with " + short_name(photo.file),
         [&editor, view = drawn.view, photo, loaded, render](JobContext&) -> Jobs::Done {
-            const Image in_view = photo_in_view(photo, loaded->linear, {render->width, render->height});
             auto made = std::make_shared<Compared>();
+            made->in_view = photo_in_view(photo, loaded->linear, {render->width, render->height});
+            const Image& in_view = made->in_view;
             made->overlay = overlay_of(in_view);
             made->heat = heat_picture(delta_e_picture(in_view, *render, photo.region), kHeatWhite);
             made->residual = residual_of(in_view, *render, photo.region);
@@ -90,6 +91,7 @@ void compare_photo(Editor& editor, const DrawnPhotoView& drawn, const Photo& pho
                 PhotoShown& result = editor.photos.views[view];
                 result.fitted = editor.renderer.upload_thumbnail(made->overlay);
                 result.heat = editor.renderer.upload_thumbnail(made->heat);
+                result.linear = std::make_shared<const Image>(std::move(made->in_view));
                 result.residual = made->residual;
                 ++editor.changes;
             };
@@ -159,7 +161,8 @@ glm::vec3 card_color(Editor& editor, std::size_t view, float reflectance) {
     scene.mesh = photos.card;
     scene.maps = {};
     scene.material = {};
-    scene.view.env_rotation_deg = wrap_degrees(looked.env_rotation_deg - editor.camera.yaw_deg);
+    scene.view.env_rotation_deg =
+        wrap_degrees(looked.env_rotation_deg - camera_of_sheet(editor, view).yaw_deg);
     scene.view.background = Background::Plain;
     scene.view.debug = DebugView::Diffuse;
     const TargetHandle target = editor.renderer.make_target({8, 8}, 1, TargetPrecision::Full);
@@ -182,9 +185,7 @@ void pick_card(Editor& editor, const ui::request::PickCard& picked) {
         const auto file = editor.photos.files.find(photo->file);
         if (file == editor.photos.files.end() || !file->second.loaded || !editor.reconciler.drawable(view))
             throw std::runtime_error("The photo or the light is not there yet; click again in a moment.");
-        const Image& linear = file->second.loaded->linear;
-        const float radius = std::max(2.0f, 0.006f * float(std::max(linear.width, linear.height)));
-        const auto patch = patch_color(linear, picked.point * glm::vec2(linear.width, linear.height), radius);
+        const auto patch = card_patch(file->second.loaded->linear, picked.point);
         if (!patch) return;
         const float reflectance = picked.white ? kWhitePaper : kGreyCard;
         const auto balance = balance_to(*patch, card_color(editor, view, reflectance));

@@ -31,6 +31,7 @@ struct PhotoShown {
     glm::ivec2 size_px{0};
     std::uint64_t drawn = 0;  ///< how often the view had been drawn
     MapHandle fitted, heat;
+    std::shared_ptr<const Image> linear;  ///< 4 channels, in the view's frame
     Residual residual;
     Jobs::Id job = 0;
 };

@@ -69,10 +69,11 @@ std::optional<Comparison> left_sheet(Editor& editor) {
 ViewBinding bind_view(const Editor& editor) {
     const Document& document = editor.document;
     const std::optional<ViewPlace> place = selected_place(editor);
-    if (!place) return {-1, document.view, document.environment, document.mesh};
-    View view = view_of(*document.sheet, lighting_at(*document.sheet, *place));
+    if (!place) return {-1, document.view, editor.camera, document.environment, document.mesh};
+    const Lighting& light = lighting_at(*document.sheet, *place);
+    View view = view_of(*document.sheet, light);
     view.debug = document.view.debug;
-    return {editor.ui.sheet_selected, view, lighting_at(*document.sheet, *place).environment,
+    return {editor.ui.sheet_selected, view, light.camera.value_or(editor.camera), light.environment,
             document.sheet->mesh};
 }
 
@@ -80,6 +81,7 @@ void take_binding(Editor& editor, const ViewBinding& before, const ViewBinding& 
     Document& document = editor.document;
     if (before.selected < 0 || !document.sheet) {
         document.view = after.view;
+        editor.camera = after.camera;
         document.environment = after.environment;
         document.mesh = after.mesh;
         return;
@@ -92,6 +94,7 @@ void take_binding(Editor& editor, const ViewBinding& before, const ViewBinding& 
     if (turned != 0.0f)
         sheet = with_turned_light(std::move(sheet), all_lights ? std::nullopt : std::optional(place), turned);
     Lighting& light = lighting_at(sheet, place);
+    if (after.camera != before.camera) (light.camera ? *light.camera : editor.camera) = after.camera;
     light.environment = after.environment;
     light.exposure_ev = after.view.exposure_ev;
     light.tonemap = after.view.tonemap;
@@ -121,6 +124,11 @@ std::vector<WantedPicture> wanted_pictures(Editor& editor) {
         pictures.push_back({material, sheet.mesh, lighting_at(sheet, place).environment, view});
     }
     return pictures;
+}
+
+const Camera& camera_of_sheet(const Editor& editor, std::size_t view) {
+    const Lighting& light = lighting_at(*editor.document.sheet, places_of(*editor.document.sheet)[view]);
+    return light.camera ? *light.camera : editor.camera;
 }
 
 View view_of_sheet(const Editor& editor, std::size_t view) {

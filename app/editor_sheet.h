@@ -48,6 +48,7 @@ struct EditorSheet {
 struct ViewBinding {
     int selected = -1;  ///< view of the sheet; −1: the document's own
     View view;
+    Camera camera;
     std::string environment, mesh;
 };
 ViewBinding bind_view(const Editor& editor);
@@ -56,7 +57,8 @@ void take_binding(Editor& editor, const ViewBinding& before, const ViewBinding& 
 
 /// Of the sheet's views, as many as are shown; empty without a sheet. Reads presets that are new.
 std::vector<WantedPicture> wanted_pictures(Editor& editor);
-/// How that view is looked at.
+/// How that view is looked at; and from where, before it is fitted to the view's shape.
+const Camera& camera_of_sheet(const Editor& editor, std::size_t view);
 View view_of_sheet(const Editor& editor, std::size_t view);
 
 void show_sheet(Editor& editor, bool shown);

@@ -4,6 +4,8 @@
 
 #include "app/autosave.h"
 #include "app/document.h"
+#include "app/editor_ab.h"
+#include "app/editor_maps.h"
 #include "app/editor_photo.h"
 #include "app/editor_sheet.h"
 #include "app/jobs.h"
@@ -49,6 +51,9 @@ struct Editor {
     Thumbnails thumbnails;
     EditorSheet sheet;
     EditorPhotos photos;
+    EditorMaps maps;
+    EditorAb ab;
+    ui::ProbeValues probe;  ///< what is under the mouse
 
     // The interface's side.
     ui::UiState ui;

@@ -11,7 +11,7 @@ constexpr int kSamples = 4;  ///< a pixel, of a good picture
 }
 
 Scene Loop::sheet_scene(std::size_t view, glm::ivec2 size_px) const {
-    const Camera camera = fitted_to(editor_.camera, float(size_px.x) / float(size_px.y));
+    const Camera camera = fitted_to(camera_of_sheet(editor_, view), float(size_px.x) / float(size_px.y));
     return editor_.reconciler.scene_of(view, camera, view_of_sheet(editor_, view));
 }
 
@@ -133,6 +133,36 @@ void Loop::fill_viewport(ui::Viewport& viewport) const {
     viewport.left = picture(editor_.ui.accuracy.left);
     viewport.right = picture(editor_.ui.accuracy.right);
     viewport.accuracy = meter_.status();
+}
+
+/// Both pictures of the view under the mouse, as the last frame showed them.
+void Loop::fill_probe(ui::PanelContext& context) {
+    if (!probed_) return;
+    const glm::vec2 at = probed_->at;
+    const auto of_target = [&](const RenderTarget* target) {
+        return target ? value_at(renderer_, *target, at) : std::nullopt;
+    };
+    const ui::AccuracySettings& accuracy = editor_.ui.accuracy;
+    if (!editor_.document.sheet) {
+        const auto of_layer = [&](const ui::Layer& layer) {
+            const RenderTarget* target = meter_.target(layer);
+            return of_target(target ? target : has_drawn_ ? target_.get() : nullptr);
+        };
+        context.probe.first = of_layer(accuracy.left);
+        if (accuracy.split) context.probe.second = of_layer(accuracy.right);
+    } else if (probed_->view >= 0 && editor_.ui.sheet_enlarged == probed_->view) {
+        const auto of_view = [&](int view) {
+            const auto i = std::size_t(std::max(view, 0));
+            const bool there = view >= 0 && i < sheet_views_.size() && sheet_views_[i].has_drawn;
+            return of_target(there ? sheet_views_[i].target.get() : nullptr);
+        };
+        context.probe.first = of_view(probed_->view);
+        const PhotoShown& photo = editor_.photos.views[std::size_t(probed_->view)];
+        if (editor_.ui.ab.against == ui::kAgainstPhoto && photo.linear)
+            context.probe.second = value_at(*photo.linear, at);
+        else
+            context.probe.second = of_view(editor_.ui.ab.against);
+    }
 }
 
 void Loop::fill_thumbnails() {

@@ -22,6 +22,8 @@ int run(const patina::Args& args) {
             return patina::run_compare(args.render, registry);
         case Command::Report:
             return patina::run_report(args.report, registry);
+        case Command::Maps:
+            return patina::run_maps(args.maps, registry);
         case Command::Bake:
             return patina::run_bake(args.bake, registry);
         case Command::Bench:

@@ -56,4 +56,14 @@ fs::path state_folder() {
                        "state");
 }
 
+std::string plain_stem(const std::filesystem::path& file, const std::string& otherwise) {
+    std::string stem = path_to_utf8(file.stem());
+    for (char& c : stem) {
+        const bool plain =
+            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
+        if (!plain && static_cast<unsigned char>(c) < 0x80) c = '_';
+    }
+    return stem.empty() ? otherwise : stem;
+}
+
 }  // namespace patina

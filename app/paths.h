@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace patina {
 
@@ -14,5 +15,9 @@ std::filesystem::path cache_folder();
 /// Things that must not be lost (recovery file, settings): PATINA_STATE_DIR, else XDG_STATE_HOME/patina,
 /// ~/.local/state/patina, ~/Library/Application Support/patina or %LOCALAPPDATA%\patina\state.
 std::filesystem::path state_folder();
+
+/// For names of further files: what the file is called, with '_' for all but letters, digits, '-' and what is
+/// not ASCII; otherwise where nothing is left.
+std::string plain_stem(const std::filesystem::path& file, const std::string& otherwise);
 
 }  // namespace patina

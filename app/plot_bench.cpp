@@ -125,7 +125,8 @@ std::vector<NamedPlot> frame_plots(const Json& result) {
 Plot shading_plot(const Json& result, const std::string& material, const std::string& title) {
     Plot plot;
     plot.title = title;
-    plot.subtitle = "Mean over environments, meshes and roughness " + result.value("roughness_range", "");
+    plot.subtitle =
+        "On the sphere: mean over environments and roughness " + result.value("roughness_range", "");
     plot.x = {"cost of a frame (split sum = 1)", true};
     plot.y = {"relative rms error (%)", true};
     plot.pareto = true;
@@ -135,8 +136,9 @@ Plot shading_plot(const Json& result, const std::string& material, const std::st
             .points.push_back(
                 {mode.at("cost").get<double>(), 100.0 * mode.at("rms").at(material).get<double>(), setting});
     }
-    plot.notes = {"Error against the sampled reflectance integral at pixel centres. Frames drawn by " +
-                  result.value("renderer", "") + "."};
+    plot.notes = {
+        "Error against the sampled reflectance integral, averaged over each pixel. Frames drawn by " +
+        result.value("renderer", "") + "."};
     return plot;
 }
 

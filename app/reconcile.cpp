@@ -58,7 +58,7 @@ std::string Reconciler::State::want_map(MapRequest request, int finest_side) {
         if (fine && map_of_key(key) == map) at_hand = key;
     });
     if (!at_hand.empty()) return at_hand;
-    const std::string key = map + kDetailMark + std::to_string(request.finest_side);
+    std::string key = map + kDetailMark + std::to_string(request.finest_side);
     map_requests[key] = request;
     return key;
 }

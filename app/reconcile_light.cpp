@@ -79,12 +79,20 @@ Source open_source(const Registry& registry, const LightOrder& order) {
     return {std::make_shared<Environment>(std::move(loaded.environment)), std::move(loaded.baked)};
 }
 
-/// From the disk, else as a first light. False if there is neither.
-bool take_what_is_there(const Environment& environment, const LightOrder& order, const BakeSettings& settings,
-                        const BakeCache& cache, HeldLight& held, ReadyLight& ready) {
-    std::optional<BakedEnvironment> entry = load_baked(cache, bake_key(environment, settings));
-    if (order.needed) {
-        const BakeSettings wanted = lacking(held, *order.needed, settings);
+/// What light is made from, and how.
+struct LightTask {
+    const Environment& environment;
+    const LightOrder& order;
+    const BakeSettings& settings;
+    const BakeCache& cache;
+    BakeControl control;
+};
+
+/// From the disk. False if it is not there.
+bool take_what_is_there(const LightTask& task, HeldLight& held, ReadyLight& ready) {
+    std::optional<BakedEnvironment> entry = load_baked(task.cache, bake_key(task.environment, task.settings));
+    if (task.order.needed) {
+        const BakeSettings wanted = lacking(held, *task.order.needed, task.settings);
         if (wanted.roughness.empty() && !wanted.irradiance) return true;
         if (entry) entry = selected(*entry, wanted);
     }
@@ -94,18 +102,17 @@ bool take_what_is_there(const Environment& environment, const LightOrder& order,
     return true;
 }
 
-bool bake_what_is_missing(const Environment& environment, const LightOrder& order,
-                          const BakeSettings& settings, const BakeCache& cache, const BakeControl& control,
-                          HeldLight& held, ReadyLight& ready) {
-    if (order.first_light && !order.held) {
-        auto coarse = bake_first_light(environment, settings, control);
+/// False if it was stopped.
+bool bake_what_is_missing(const LightTask& task, HeldLight& held, ReadyLight& ready) {
+    if (task.order.first_light && !task.order.held) {
+        auto coarse = bake_first_light(task.environment, task.settings, task.control);
         if (!coarse) return false;
         held.coarse = std::move(*coarse);
         ready.is_first_light = true;
         return true;
     }
-    const BakeSettings wanted = lacking(held, order.needed.value_or(all_light()), settings);
-    auto bake = cached_bake(environment, wanted, control, cache);
+    const BakeSettings wanted = lacking(held, task.order.needed.value_or(all_light()), task.settings);
+    auto bake = cached_bake(task.environment, wanted, task.control, task.cache);
     if (!bake) return false;
     add_notes(ready.notes, bake->baked.notes);
     if (!bake->note.empty()) ready.notes.push_back(bake->note);
@@ -187,15 +194,14 @@ std::optional<ReadyLight> get_light(const Registry& registry, const LightOrder& 
     HeldLight held = order.held ? *order.held : describe(environment);
     ReadyLight ready;
     if (!order.held) add_notes(ready.notes, environment.notes);
-    BakeControl rest = control;
-    rest.progress = [&](float fraction) { control.progress(kDecodeShare + kBakeShare * fraction); };
+    LightTask task{environment, order, settings, cache, control};
+    task.control.progress = [&](float fraction) { control.progress(kDecodeShare + kBakeShare * fraction); };
     if (source.baked) {
         held.exact = std::move(*source.baked);
         held.is_whole = ready.from_disk = true;
         add_notes(ready.notes, held.exact.notes);
-    } else if (order.held || !take_what_is_there(environment, order, settings, cache, held, ready)) {
-        if (!bake_what_is_missing(environment, order, settings, cache, rest, held, ready))
-            return std::nullopt;
+    } else if (order.held || !take_what_is_there(task, held, ready)) {
+        if (!bake_what_is_missing(task, held, ready)) return std::nullopt;
     }
     if (control.stop.stop_requested()) return std::nullopt;
     ready.light = prepare(held, environment, order);

@@ -83,6 +83,8 @@ Jobs::Id Reconciler::State::start_map(const std::string& key, const MapRequest& 
             const int side = request.finest_side;
             expect(maps, key, ready, std::exchange(ready->levels, nullptr),
                    [this, key, bytes, side](const ReadyMap& map, MapHandle handle) {
+                       if (const std::string& less = Renderer::note_of(*handle); !less.empty())
+                           options.log(ui::Severity::Warning, short_name(id_of(key)) + ": " + less);
                        HeldMap held{.handle = std::move(handle),
                                     .thumbnail = renderer.upload_thumbnail(map.thumbnail)};
                        held.status = {.state = ui::MapState::Ok,

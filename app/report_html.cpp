@@ -98,7 +98,7 @@ void write_table(std::string& html, const ReportTable& table) {
 }  // namespace
 
 std::string base64(const std::vector<unsigned char>& bytes) {
-    static constexpr std::string_view kDigits =
+    static constexpr std::string_view digits =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
     text.reserve((bytes.size() + 2) / 3 * 4);
@@ -106,10 +106,10 @@ std::string base64(const std::vector<unsigned char>& bytes) {
         const std::size_t left = bytes.size() - i;
         const unsigned group = unsigned(bytes[i]) << 16 | (left > 1 ? unsigned(bytes[i + 1]) << 8 : 0u) |
                                (left > 2 ? unsigned(bytes[i + 2]) : 0u);
-        text += kDigits[group >> 18];
-        text += kDigits[group >> 12 & 63];
-        text += left > 1 ? kDigits[group >> 6 & 63] : '=';
-        text += left > 2 ? kDigits[group & 63] : '=';
+        text += digits[group >> 18];
+        text += digits[group >> 12 & 63];
+        text += left > 1 ? digits[group >> 6 & 63] : '=';
+        text += left > 2 ? digits[group & 63] : '=';
     }
     return text;
 }

@@ -102,7 +102,8 @@ const SceneLoader::Map& SceneLoader::map(const MapSource& source, const std::str
         ++renderer_.work().maps_from_memory;
         return map;
     }
-    options_.progress("loading " + path_to_utf8(source.file.filename()), 0.0f);
+    const std::string name = path_to_utf8(source.file.filename());
+    options_.progress("loading " + name, 0.0f);
     LoadedImage loaded;
     try {
         loaded = load_map(registry_, source, side);
@@ -113,7 +114,7 @@ const SceneLoader::Map& SceneLoader::map(const MapSource& source, const std::str
         options_.note(preset + ": " + error.what());
         loaded.image = make_placeholder_map();
     }
-    for (const std::string& note : loaded.notes) options_.note(note);
+    for (const std::string& note : loaded.notes) options_.note(name + ": " + note);
     MapLevels levels = make_map_levels(loaded.image, source.kind, source.color_space);
     leave_out_finer(levels, side);
     map.ranges = channel_ranges(levels);
@@ -122,6 +123,8 @@ const SceneLoader::Map& SceneLoader::map(const MapSource& source, const std::str
     loaded.image = {};
     map.side = side;
     map.handle = renderer_.upload_map(levels);
+    if (const std::string& note = Renderer::note_of(*map.handle); !note.empty())
+        options_.note(name + ": " + note);
     return map;
 }
 

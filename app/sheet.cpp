@@ -39,14 +39,14 @@ constexpr float kPaper = 0.13f;
 constexpr float kInk = 0.85f;
 
 const stbtt_fontinfo& label_font() {
-    static const stbtt_fontinfo kFont = [] {
+    static const stbtt_fontinfo label = [] {
         stbtt_fontinfo font{};
         const std::span<const unsigned char> file = embedded::fonts("Inter-Regular.otf");
         if (file.empty() || !stbtt_InitFont(&font, file.data(), 0))
             throw std::runtime_error("the embedded font cannot be read");
         return font;
     }();
-    return kFont;
+    return label;
 }
 
 struct Glyph {

@@ -57,12 +57,8 @@ std::optional<Estimate> tried(const Image& photo, const std::optional<Region>& r
 
 }  // namespace
 
-namespace {
-
-constexpr int kPhotoPx = 2048;  ///< more detail than a view shows
-
-/// Half the size each way, as often as needed: means of 2×2 pixels.
-Image reduced(Image image, int max_side) {
+/// Means of 2×2 pixels.
+Image reduced_photo(Image image, int max_side) {
     while (std::max(image.width, image.height) > max_side) {
         Image half =
             make_image(std::max(1, image.width / 2), std::max(1, image.height / 2), 3, PixelType::F32);
@@ -80,12 +76,10 @@ Image reduced(Image image, int max_side) {
     return image;
 }
 
-}  // namespace
-
-LoadedPhoto load_photo(const Registry& registry, const std::string& file) {
+LoadedPhoto load_photo(const Registry& registry, const std::string& file, int max_side) {
     const std::filesystem::path path = utf8_to_path(file);
     LoadedImage loaded = import_image(registry, path);
-    return {.linear = reduced(linear_photo(loaded.image), kPhotoPx),
+    return {.linear = reduced_photo(linear_photo(loaded.image), max_side),
             .exif = exif_of(load_image_metadata(path)),
             .notes = std::move(loaded.notes)};
 }

@@ -15,11 +15,15 @@ namespace patina {
 
 /// A photo read from disk.
 struct LoadedPhoto {
-    Image linear;  ///< 3 channels of F32, at most 2048 pixels a side
+    Image linear;  ///< 3 channels of F32, halved until no side is longer than asked
     CameraExif exif;
     std::vector<std::string> notes;
 };
-LoadedPhoto load_photo(const Registry& registry, const std::string& file);
+inline constexpr int kPhotoPx = 2048;  ///< more detail than a view shows
+LoadedPhoto load_photo(const Registry& registry, const std::string& file, int max_side = kPhotoPx);
+
+/// Halved until no side is longer than that: 3 channels of F32.
+Image reduced_photo(Image image, int max_side);
 
 /// Scene-linear radiance of a scene, exposure applied.
 using ShootRadiance = std::function<Image(const Scene&)>;

@@ -123,8 +123,9 @@ Trial reflection_fuzz(Random& random, Stage&) {
         check_weights(brdf::course_weights(albedo, metallic, roughness, NoV, ab));
         // As the shader calls it: lobes of lights are no sharper than the sharpest level, α ≥ 1e-6².
         const float alpha2 = std::max(brdf::square(brdf::square(roughness)), 1e-12f);
-        trial.require(is_sane(brdf::light_specular(albedo, edgy_unit(random),
-                                                   vec3(NoV, NoL, edgy_unit(random)), vec2(alpha2))));
+        trial.require(
+            is_sane(brdf::light_specular(albedo, edgy_unit(random), vec3(NoV, NoL, edgy_unit(random)),
+                                         vec2(alpha2, 0.2f * edgy_unit(random)))));
         const float sharpest2 = 1e-4f;
         const float q = float(random.log_between(1e-3, 1e3));
         const float core_alpha2 = std::clamp(alpha2, 1e-14f, sharpest2);
@@ -151,9 +152,12 @@ Trial core_inversion(Random& random, Stage&) {
 }
 
 Trial albedo_table(Random& random, Stage&) {
-    // Beyond the outermost texels' middles a fetch is constant, and errs by up to 3e-3 at roughness 1.
-    constexpr double last = 1.0 - 0.5 / kBrdfTableSize;
-    const double NoV = std::max(random.uniform(), 1e-3), roughness = std::min(random.uniform(), last);
+    // Often near the ends, where A and B bend most.
+    const auto any = [&](double least) {
+        return random.chance(0.5) ? random.uniform() : random.log_between(least, 1.0);
+    };
+    const double NoV = std::max(random.chance(0.1) ? 1.0 : any(1e-3), 1e-3);
+    const double roughness = random.chance(0.1) ? 1.0 : any(1e-3);
     const glm::dvec2 fetched = fetched_albedo(NoV, roughness);
     const glm::dvec2 exact = exact_albedo(NoV, roughness * roughness);
     Trial trial;
@@ -190,7 +194,7 @@ std::vector<Property> reflection_properties() {
         {"ggx-integral", "∫ D cos θ dω = 1", 1e-6, 2000, ggx_integral},
         {"ggx-precision", "D in single precision, relative, r ≥ 0.03", 2e-4, 100000, ggx_precision},
         {"reciprocity", "f(V, L) = f(L, V), relative", 1e-5, 50000, reciprocity},
-        {"albedo-table", "the table as fetched = ∫ f cos θ dω, r ≤ 0.996", 1.2e-3, 200, albedo_table},
+        {"albedo-table", "the table as fetched = ∫ f cos θ dω, NoV ≥ 0.001", 5e-4, 400, albedo_table},
         {"furnace-weights", "white reflects all, nothing more than all", 1e-5, 50000, furnace_weights},
         {"reflection-fuzz", "no NaN, Inf or negative weight", 0.0, 100000, reflection_fuzz},
         {"core-inversion", "a sharp lobe's samples follow its distribution", 1e-4, 20000, core_inversion},

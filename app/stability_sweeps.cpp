@@ -45,14 +45,15 @@ double distribution_error(double roughness, DistributionForm form, Random& rando
 dvec2 fetched_albedo(double NoV, double roughness) {
     const auto texels = embedded::brdf_table();
     const auto texel = [&](int x, int y) {
-        const std::size_t i = 2 * (std::size_t(y) * kBrdfTableSize + std::size_t(x));
+        const std::size_t i = 2 * (std::size_t(y) * kShadingTableSize + std::size_t(x));
         return dvec2(texels[i], texels[i + 1]) / 65535.0;
     };
-    const auto place = [](double unit) {
-        return std::clamp(unit * kBrdfTableSize - 0.5, 0.0, double(kBrdfTableSize - 1));
+    const glm::vec2 place = brdf::albedo_coordinates(float(NoV), float(roughness));
+    const auto texels_in = [](float unit) {
+        return std::clamp(double(unit) * kShadingTableSize - 0.5, 0.0, double(kShadingTableSize - 1));
     };
-    const double x = place(std::sqrt(NoV)), y = place(roughness);
-    const int x0 = std::min(int(x), kBrdfTableSize - 2), y0 = std::min(int(y), kBrdfTableSize - 2);
+    const double x = texels_in(place.x), y = texels_in(place.y);
+    const int x0 = std::min(int(x), kShadingTableSize - 2), y0 = std::min(int(y), kShadingTableSize - 2);
     const double fx = x - x0, fy = y - y0;
     return (1.0 - fy) * ((1.0 - fx) * texel(x0, y0) + fx * texel(x0 + 1, y0)) +
            fy * ((1.0 - fx) * texel(x0, y0 + 1) + fx * texel(x0 + 1, y0 + 1));

@@ -260,7 +260,11 @@ bool Thumbnails::step(bool nothing_else_to_do) {
             state.start_light();
             return false;
         }
-        state.draw();
+        try {
+            state.draw();
+        } catch (const std::exception&) {
+            // The graphics card has no memory for it: the tile stays without a picture.
+        }
         return true;
     }
     if (state.queue.empty()) return false;

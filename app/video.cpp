@@ -16,7 +16,6 @@
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
-extern char** environ;
 #endif
 
 namespace patina {
@@ -28,6 +27,7 @@ namespace {
 /// Its exit status, without a word on the terminal; −1 where it cannot be started.
 int run_quietly(std::vector<std::string> words) {
     std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
 #ifdef _WIN32
@@ -49,8 +49,8 @@ int run_quietly(std::vector<std::string> words) {
 }  // namespace
 
 bool is_video(const fs::path& file) {
-    constexpr std::array<std::string_view, 4> kEndings{".mp4", ".webm", ".mov", ".gif"};
-    return std::ranges::find(kEndings, file.extension().string()) != kEndings.end();
+    constexpr std::array<std::string_view, 4> endings{".mp4", ".webm", ".mov", ".gif"};
+    return std::ranges::find(endings, file.extension().string()) != endings.end();
 }
 
 bool has_ffmpeg() { return run_quietly({"ffmpeg", "-version"}) == 0; }

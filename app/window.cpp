@@ -43,6 +43,7 @@ struct Window::State {
     WindowEvents events;
     std::deque<KeyEvent> keys;  ///< delivered so that a key changes at most once a frame
     std::uint64_t frames = 0;
+    bool tells_loss = false;                       ///< the driver can be asked whether the context is lost
     float scale = 1.0f, framebuffer_scale = 1.0f;  ///< what style and fonts were made for
     glm::vec2 mouse{-1.0f};
     std::array<bool, kMouseButtons> mouse_down{};
@@ -71,8 +72,13 @@ GLFWwindow* open_window(const WindowOptions& options) {
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHintString(GLFW_X11_CLASS_NAME, "patina");
     glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "patina");
-    GLFWwindow* window =
-        glfwCreateWindow(options.size.x, options.size.y, options.title.c_str(), nullptr, nullptr);
+    const auto create = [&](int robustness) {
+        glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, robustness);
+        return glfwCreateWindow(options.size.x, options.size.y, options.title.c_str(), nullptr, nullptr);
+    };
+    // A context that says when it is lost; without, a reset of the driver would end the program at once.
+    GLFWwindow* window = create(GLFW_LOSE_CONTEXT_ON_RESET);
+    if (!window) window = create(GLFW_NO_ROBUSTNESS);
     if (!window) {
         const std::string reason = last_glfw_error();
         glfwTerminate();
@@ -181,6 +187,7 @@ Window::Window(const WindowOptions& options) : state_(std::make_unique<State>())
     fit_to_monitor(state_->window);
     glfwMakeContextCurrent(state_->window);
     glfwSwapInterval(1);
+    state_->tells_loss = epoxy_has_gl_extension("GL_ARB_robustness");
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
@@ -213,6 +220,14 @@ void Window::wait(double timeout_s) {
 void Window::wake() { glfwPostEmptyEvent(); }
 
 WindowEvents Window::take_events() { return std::exchange(state_->events, {}); }
+
+void Window::require_context() const {
+    if (!state_->tells_loss || glGetGraphicsResetStatusARB() == GL_NO_ERROR) return;
+    throw std::runtime_error(
+        "The graphics driver was reset and took the window's pictures with it: start again; changes that "
+        "were "
+        "not saved are offered then.");
+}
 
 void Window::begin_frame() {
     ImGui_ImplOpenGL3_NewFrame();

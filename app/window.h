@@ -47,6 +47,8 @@ public:
     /// From any thread: ends wait().
     static void wake();
     WindowEvents take_events();
+    /// Throws std::runtime_error where the driver was reset: nothing more can be drawn in this window.
+    void require_context() const;
 
     /// Between them the interface is drawn; end_frame shows it.
     void begin_frame();

@@ -196,6 +196,8 @@ private:
         return ids;
     }
     void note_odd_map(const std::string& place, const std::string& map) {
+        if (map.find('\0') != std::string::npos)
+            fail(place, "holds a zero, which no file's name does; name a picture");
         if (is_web_address(map))
             note(place, "is the address '" + printable(map) +
                             "', which is never fetched; save the picture beside the preset");

@@ -9,6 +9,7 @@
 namespace patina::brdf {
 
 using glm::clamp;
+using glm::exp;
 using glm::exp2;
 using glm::max;
 using glm::min;

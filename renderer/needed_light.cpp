@@ -18,14 +18,15 @@ constexpr float kSame = 1e-5f;          ///< relative: roughness that is taken f
 constexpr float kWidestPitch = 1.168f;  ///< ratio of neighbouring standard levels, 10^(1/15), and rounding
 
 /// 1 − Ess at one roughness, averaged over the sphere as it is seen (cosine-weighted): what bounces more than
-/// once. Table texels lie at NoV = s², so 2 NoV dNoV = 4 s³ ds.
+/// once. Table texels lie at NoV = s², so 2 NoV dNoV = 4 s³ ds, by trapezia.
 double mean_multiple(int row) {
-    const std::uint16_t* ab = embedded::brdf_table().data() + std::size_t(row) * kBrdfTableSize * 2;
+    constexpr int last = kShadingTableSize - 1;
+    const std::uint16_t* ab = embedded::brdf_table().data() + std::size_t(row) * kShadingTableSize * 2;
     double sum = 0.0;
-    for (int x = 0; x < kBrdfTableSize; ++x) {
-        const double s = (x + 0.5) / kBrdfTableSize;
+    for (int x = 1; x <= last; ++x) {
+        const double s = double(x) / last, width = (x < last ? 1.0 : 0.5) / last;
         const double Ess = (double(ab[2 * x]) + double(ab[2 * x + 1])) / 65535.0;
-        sum += 4.0 * s * s * s * std::max(1.0 - Ess, 0.0) / kBrdfTableSize;
+        sum += 4.0 * s * s * s * std::max(1.0 - Ess, 0.0) * width;
     }
     return sum;
 }
@@ -34,8 +35,8 @@ double mean_multiple(int row) {
 float single_scattering_limit() {
     static const float limit = [] {
         int row = 0;
-        while (row < kBrdfTableSize && mean_multiple(row) < double(kIgnoredWeight)) ++row;
-        return (float(row) - 0.5f) / kBrdfTableSize;
+        while (row < kShadingTableSize && mean_multiple(row) < double(kIgnoredWeight)) ++row;
+        return (float(row) - 1.0f) / (kShadingTableSize - 1);
     }();
     return limit;
 }

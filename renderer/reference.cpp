@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kReplicates = ReferenceTarget::kReplicates;
 constexpr int kMostAtOnce = 64;  ///< points of a slice, each of which sees the pixel's area at one place
-constexpr int kMostOfMiddle = 256;
+constexpr int kMostOfMiddle = blocks::kMostPoints;
 constexpr float kWeightOfOne = 1.0f / 4096.0f;
 
 enum Stream : std::uint64_t { Light, Reflection, Pixel };
@@ -40,22 +40,21 @@ int longest_of(const ReferenceOptions& options) {
     return (options.max_samples + kReplicates - 1) / kReplicates;
 }
 
-/// Rows of shaders/reference.frag.glsl.
-std::vector<glm::vec4> make_points(const LightSampler& light, const Place& place,
-                                   const ReferenceOptions& options) {
-    const int count = place.count;
-    std::vector<glm::vec4> rows(3 * std::size_t(count));
-    for (int i = 0; i < count; ++i) {
+blocks::PointBlock make_points(const LightSampler& light, const Place& place,
+                               const ReferenceOptions& options) {
+    blocks::PointBlock block{};
+    for (int i = 0; i < place.count; ++i) {
+        glm::vec4* const rows = &block.point_rows[3 * i];
         const std::uint32_t index = sequence_index(place.replicate, place.first + i, longest_of(options));
         const glm::dvec3 u = scrambled_sobol(index, seed_of(options.seed, Light));
         const LightSample sample = light.sample({u.x, u.y});
-        rows[i] = glm::vec4(glm::vec3(sample.direction), float(sample.density));
-        rows[count + i] = glm::vec4(sample.radiance, 0.0f);
+        rows[0] = glm::vec4(glm::vec3(sample.direction), float(sample.density));
+        rows[1] = glm::vec4(sample.radiance, 0.0f);
         const glm::dvec3 v = scrambled_sobol(index, seed_of(options.seed, Reflection));
         const double phi = 2.0 * std::numbers::pi * v.x;
-        rows[2 * count + i] = glm::vec4(glm::dvec4(std::cos(phi), std::sin(phi), v.y, v.z));
+        rows[2] = glm::vec4(glm::dvec4(std::cos(phi), std::sin(phi), v.y, v.z));
     }
-    return rows;
+    return block;
 }
 
 double seconds_of(std::chrono::steady_clock::time_point since) {

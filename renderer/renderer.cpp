@@ -95,7 +95,7 @@ void Renderer::State::draw_reference(const Scene& scene, const GpuEnvironment& e
     bind_light(environment);
     if (scene.mesh) {
         bind_maps(scene);
-        bind_texture(gl::kReferenceUnit, GL_TEXTURE_2D, target.points);
+        glBindBufferBase(GL_UNIFORM_BUFFER, gl::kPointSlot, target.points.name());
         gl::begin_reference_pass(gl::ReferencePass::Depth);
         glUseProgram(depth_only().name());
         gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
@@ -198,6 +198,8 @@ WorkLedger& Renderer::work() { return state_->work; }
 
 std::uintptr_t Renderer::texture_of(const GpuMap& map) { return map.texture.name(); }
 
+const std::string& Renderer::note_of(const GpuMap& map) { return map.note; }
+
 TargetHandle Renderer::make_target(glm::ivec2 size_px, int samples, TargetPrecision precision) {
     return std::make_shared<RenderTarget>(
         gl::make_render_target(size_px, samples, precision == TargetPrecision::Full));
@@ -269,6 +271,11 @@ void Renderer::set_program_store(ProgramStore store) { state_->programs = std::m
 void Renderer::set_reuse(bool allowed) {
     state_->reuse = allowed;
     if (!allowed) state_->kept_surfaces.clear();
+}
+
+Renderer::PixelValue Renderer::read_pixel(const RenderTarget& target, glm::ivec2 pixel) {
+    const gl::PixelValue value = gl::read_pixel_value(target, pixel, [&] { state_->draw_resolved(target); });
+    return {value.radiance, value.display};
 }
 
 }  // namespace patina

@@ -142,10 +142,18 @@ public:
     /// top.
     Image read_display(const RenderTarget& target);
     Image read_radiance(const RenderTarget& target);
+    /// Of one pixel, (0,0) the upper left one; display in 0…255.
+    struct PixelValue {
+        glm::vec3 radiance{0.0f};
+        glm::ivec3 display{0};
+    };
+    PixelValue read_pixel(const RenderTarget& target, glm::ivec2 pixel);
 
     /// An 8-bit picture as a texture for the interface (thumbnails); released with the handle.
     MapHandle upload_thumbnail(const Image& image);
     static std::uintptr_t texture_of(const GpuMap& map);
+    /// One sentence where the driver had no memory for all of it; else empty.
+    static const std::string& note_of(const GpuMap& map);
 
     /// What was done for pictures drawn with this renderer; whoever loads or bakes for it adds to it.
     WorkLedger& work();

@@ -1,19 +1,22 @@
 // The renderer's programs and the textures that every picture reads.
 #include "renderer/renderer_state.h"
 
+#include "renderer/brdf.h"
 #include "renderer/gl/brdf_table.h"
 #include "renderer/gl/texture.h"
 #include "renderer/lobes/lobe_table.h"
 
 #include <bitset>
+#include <cassert>
 
 namespace patina {
 
 gl::Texture make_brdf_texture() {
+    assert(brdf::kAlbedoTableSize == float(kShadingTableSize));
     const gl::KeepTextureBindings keep;
     gl::Texture texture = gl::Texture::make();
     glBindTexture(GL_TEXTURE_2D, texture.name());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG16, kBrdfTableSize, kBrdfTableSize, 0, GL_RG, GL_UNSIGNED_SHORT,
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG16, kShadingTableSize, kShadingTableSize, 0, GL_RG, GL_UNSIGNED_SHORT,
                  embedded::brdf_table().data());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);

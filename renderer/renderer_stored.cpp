@@ -84,6 +84,8 @@ gl::SurfacePrograms Renderer::State::surface_programs(int samples, Features maps
 std::shared_ptr<const GpuSurfaces> Renderer::State::surfaces_for(const Scene& scene,
                                                                  const RenderTarget& target,
                                                                  Features features, Reuse wanted) {
+    // Of the mirrored direction, which the other modes' sharp lobes follow, no change over the pixel is kept.
+    if (has(features, Feature::Sharp) && !has(features, Feature::Fitted)) return {};
     constexpr int most_triangles = 1 << 24;  // the largest numbers that floats tell apart
     if (!reuse || wanted == Reuse::None || !scene.mesh || scene.view.debug != DebugView::Final ||
         target.samples > 4 || scene.mesh->index_count / 3 >= most_triangles)

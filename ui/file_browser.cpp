@@ -37,6 +37,7 @@ constexpr std::array kPurposes{
     PurposeRow{BrowserPurpose::SaveComparison, "Save comparison as", "Save", "json", ".json"},
     PurposeRow{BrowserPurpose::ChoosePhoto, "Choose a photo", "Use", kImages, ""},
     PurposeRow{BrowserPurpose::ExportReport, "Export report", "Export", "pdf html", ".pdf"},
+    PurposeRow{BrowserPurpose::ChooseMapPhoto, "Choose a photo for maps", "Use", kImages, ""},
 };
 const PurposeRow& purpose_row(BrowserPurpose purpose) { return kPurposes[static_cast<std::size_t>(purpose)]; }
 
@@ -167,6 +168,9 @@ void confirm(PanelContext& context) {
             break;
         case BrowserPurpose::ExportReport:
             requests.push_back(request::ExportReport{file});
+            break;
+        case BrowserPurpose::ChooseMapPhoto:
+            requests.push_back(request::SetMapPhoto{file});
             break;
     }
     browser.open = false;

@@ -1,6 +1,6 @@
 // The accuracy meter: what each side of the viewport shows, how far the shading is from the reference, and
 // what it costs.
-#include "renderer/core/metrics.h"
+#include "ui/ab_parts.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
@@ -9,9 +9,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +37,8 @@ std::vector<Choice> choices() {
     for (const auto& mode : kShadings)
         list.push_back({{Layer::Mode, mode.value}, {mode.title, mode.tooltip}});
     list.push_back({{Layer::Error}, {"Relative error", "Distance of the set shading from the reference."}});
+    list.push_back({{Layer::Signed},
+                    {"Signed difference", "Where the set shading is darker or brighter, in linear light."}});
     list.push_back({{Layer::Flip}, {"FLIP", "How different the two look when one flips between them."}});
     return list;
 }
@@ -74,50 +76,22 @@ std::string progress_of(const AccuracyStatus& status) {
     return text + (status.done ? " (at its limit)" : "…");
 }
 
-/// A chip with a ramp from 0 to the end's value.
+std::optional<DifferenceKind> map_of(const Layer& layer) {
+    if (layer.kind == Layer::Error) return DifferenceKind::Relative;
+    if (layer.kind == Layer::Flip) return DifferenceKind::Flip;
+    if (layer.kind == Layer::Signed) return DifferenceKind::Signed;
+    return std::nullopt;
+}
+
 void draw_legend(PanelContext& context, const Layer& layer, float x0, float y1) {
-    if (layer.kind != Layer::Error && layer.kind != Layer::Flip) return;
-    const bool error = layer.kind == Layer::Error;
-    const std::string begin = error ? "error 0" : "FLIP 0";
-    const std::string end = error ? "≥ " + percent(kErrorWhite) : "≥ " + formatted("%.1f", kFlipWhite);
-    ImDrawList* draw = ImGui::GetWindowDrawList();
-    const float ramp = px(120), height = ImGui::GetFontSize(), pad = px(6);
-    const float left = ImGui::CalcTextSize(begin.c_str()).x, right = ImGui::CalcTextSize(end.c_str()).x;
-    const float y0 = y1 - height - 2.0f * pad;
-    const float width = left + ramp + right + 4.0f * pad;
-    draw->AddRectFilled({x0, y0}, {x0 + width, y1}, color::kShade, px(5));
-    draw->AddText({x0 + pad, y0 + pad}, color::kText, begin.c_str());
-    constexpr int steps = 24;
-    const float from = x0 + left + 2.0f * pad;
-    for (int i = 0; i < steps; ++i) {
-        std::array<float, 3> c{};
-        viridis((i + 0.5) / steps, c.data());
-        draw->AddRectFilled({from + ramp * static_cast<float>(i) / steps, y0 + pad},
-                            {from + ramp * static_cast<float>(i + 1) / steps, y1 - pad},
-                            ImGui::ColorConvertFloat4ToU32({c[0], c[1], c[2], 1.0f}));
-    }
-    draw->AddText({from + ramp + pad, y0 + pad}, color::kText, end.c_str());
-    record_rect(context, error ? "viewport.legend.error" : "viewport.legend.flip", {x0, y0, x0 + width, y1});
+    if (const auto kind = map_of(layer)) draw_ramp_legend(context, legend_of(*kind), x0, y1);
 }
 
-void draw_side_title(const Layer& layer, float x, float y, bool to_the_left) {
-    const std::string text = title_of(layer);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    const float x0 = to_the_left ? x - size.x - px(20) : x + px(8);
-    ImDrawList* draw = ImGui::GetWindowDrawList();
-    draw->AddRectFilled({x0, y}, {x0 + size.x + px(12), y + size.y + px(6)}, color::kShade, px(4));
-    draw->AddText({x0 + px(6), y + px(3)}, color::kText, text.c_str());
-}
-
-void draw_part(const PanelContext& context, const Viewport::Picture& wanted, const Rect& rect,
-               glm::vec2 part) {
+/// The display picture stands in for what is not there.
+void draw_layer(const PanelContext& context, Viewport::Picture wanted, const Rect& rect, glm::vec2 part) {
     const Viewport& view = context.viewport;
-    const TextureId texture = wanted.texture ? wanted.texture : view.texture;
-    const bool bottom_up = wanted.texture ? wanted.bottom_up : view.bottom_up;
-    const float v0 = bottom_up ? 1.0f : 0.0f;
-    ImGui::GetWindowDrawList()->AddImage(
-        std::bit_cast<ImTextureID>(texture), {rect.x0 + part.x * rect.width(), rect.y0},
-        {rect.x0 + part.y * rect.width(), rect.y1}, {part.x, v0}, {part.y, 1.0f - v0});
+    if (!wanted.texture) wanted = {view.texture, view.bottom_up};
+    draw_part(wanted, rect, part);
 }
 
 float split_x(const PanelContext& context, const Rect& rect) {
@@ -129,14 +103,19 @@ float split_x(const PanelContext& context, const Rect& rect) {
 void draw_layers(PanelContext& context, const Rect& rect) {
     const AccuracySettings& accuracy = context.ui.accuracy;
     if (!accuracy.split || context.view.debug != DebugView::Final) {
-        draw_part(context,
-                  context.view.debug == DebugView::Final ? context.viewport.left : Viewport::Picture{}, rect,
-                  {0.0f, 1.0f});
+        draw_layer(context,
+                   context.view.debug == DebugView::Final ? context.viewport.left : Viewport::Picture{}, rect,
+                   {0.0f, 1.0f});
+        return;
+    }
+    if (accuracy.blink) {
+        const bool second = blinks_to_second(context);
+        draw_layer(context, second ? context.viewport.right : context.viewport.left, rect, {0.0f, 1.0f});
         return;
     }
     const float at = (split_x(context, rect) - rect.x0) / std::max(rect.width(), 1.0f);
-    draw_part(context, context.viewport.left, rect, {0.0f, at});
-    draw_part(context, context.viewport.right, rect, {at, 1.0f});
+    draw_layer(context, context.viewport.left, rect, {0.0f, at});
+    draw_layer(context, context.viewport.right, rect, {at, 1.0f});
 }
 
 void draw_layer_marks(PanelContext& context, const Rect& rect) {
@@ -145,33 +124,22 @@ void draw_layer_marks(PanelContext& context, const Rect& rect) {
     ImGui::PushFont(font_of(Face::Small));
     const float bottom = rect.y1 - px(10);
     draw_legend(context, accuracy.left, rect.x0 + px(10), bottom);
-    if (accuracy.split) {
-        const float x = split_x(context, rect), middle = std::round((rect.y0 + rect.y1) / 2);
-        ImDrawList* draw = ImGui::GetWindowDrawList();
-        draw->AddRectFilled({x - px(1), rect.y0}, {x + px(1), rect.y1}, color::kText);
-        draw->AddCircleFilled({x, middle}, px(7), color::kAccent);
-        record_rect(context, "viewport.split", {x - px(6), middle - px(12), x + px(6), middle + px(12)});
-        draw_side_title(accuracy.left, x, rect.y0 + px(10), true);
-        draw_side_title(accuracy.right, x, rect.y0 + px(10), false);
-        draw_legend(context, accuracy.right, x + px(10), bottom);
+    if (accuracy.split && !accuracy.blink) {
+        draw_split_line(context,
+                        {.name = "viewport.split",
+                         .at = accuracy.split_at,
+                         .left = title_of(accuracy.left),
+                         .right = title_of(accuracy.right)},
+                        rect);
+        draw_legend(context, accuracy.right, split_x(context, rect) + px(10), bottom);
     }
     ImGui::PopFont();
 }
 
 bool drag_split(PanelContext& context, const Rect& rect) {
     UiState& ui = context.ui;
-    const ImGuiIO& io = ImGui::GetIO();
-    const bool at_line = std::abs(io.MousePos.x - split_x(context, rect)) <= px(6);
-    if (ImGui::IsItemActivated())
-        ui.split_drag = ui.accuracy.split && at_line && io.MouseDown[ImGuiMouseButton_Left];
-    if (!ImGui::IsItemActive()) ui.split_drag = false;
-    if (ui.accuracy.split && (ui.split_drag || (at_line && ImGui::IsItemHovered())))
-        ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-    if (!ui.split_drag) return false;
-    const float least = std::min(px(8) / std::max(rect.width(), 1.0f), 0.5f);
-    ui.accuracy.split_at =
-        std::clamp((io.MousePos.x - rect.x0) / std::max(rect.width(), 1.0f), least, 1.0f - least);
-    return true;
+    if (!ui.accuracy.split || ui.accuracy.blink) return false;
+    return drag_split_line(rect, ui.split_drag, ui.accuracy.split_at);
 }
 
 void draw_accuracy_panel(PanelContext& context) {
@@ -196,6 +164,10 @@ void draw_accuracy_panel(PanelContext& context) {
              "Show another picture right of a line that can be dragged.", accuracy.split);
     ImGui::SameLine();
     layer_combo(context, "accuracy.right", "Right of the line.", accuracy.right);
+    if (!accuracy.split) return;
+    ImGui::SameLine();
+    checkbox(context, "accuracy.blink", "Blink", "Both in turns, twice a second: what differs moves.",
+             accuracy.blink);
 }
 
 }  // namespace patina::ui

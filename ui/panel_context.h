@@ -9,6 +9,8 @@
 #include "renderer/core/camera.h"
 #include "renderer/core/comparison.h"
 #include "renderer/core/ledger.h"
+#include "renderer/core/map_settings.h"
+#include "renderer/core/metrics.h"
 #include "renderer/core/view.h"
 #include "ui/recorder.h"
 #include "ui/requests.h"
@@ -157,7 +159,8 @@ enum class BrowserPurpose {
     OpenComparison,
     SaveComparison,
     ChoosePhoto,
-    ExportReport
+    ExportReport,
+    ChooseMapPhoto
 };
 struct BrowserEntry {
     std::string name;
@@ -209,7 +212,7 @@ struct BarDrag {
 /// What one side of the viewport shows: the picture as the view is set, one shading mode, or how far the
 /// view's shading is from the reference.
 struct Layer {
-    enum Kind { View, Mode, Error, Flip };
+    enum Kind { View, Mode, Error, Flip, Signed };
     Kind kind = View;
     Shading mode = Shading::Reference;
     bool operator==(const Layer&) const = default;
@@ -219,10 +222,9 @@ struct AccuracySettings {
     Layer right{Layer::Mode, Shading::Reference};
     bool split = false;
     float split_at = 0.5f;  ///< of the viewport's width
+    bool blink = false;     ///< the two take turns instead of standing beside each other
     bool meter = false;     ///< the accuracy drawer is open: measure
 };
-inline constexpr double kErrorWhite = 0.2;  ///< relative error at the heat map's end
-inline constexpr double kFlipWhite = 0.5;
 /// Of the reference that gathers and of the last measurement.
 struct AccuracyStatus {
     int samples = 0;
@@ -233,7 +235,53 @@ struct AccuracyStatus {
     double frame_ms = 0.0;  ///< GPU time of the shading pass
 };
 
+/// How the enlarged view of the sheet is held against another one, or against its photo.
+enum class AbHow { Split, Blink, Signed, Relative, Flip };
+inline constexpr int kAgainstNothing = -1, kAgainstPhoto = -2;
+struct AbSettings {
+    int against = kAgainstNothing;  ///< a view of the sheet, or one of these
+    AbHow how = AbHow::Split;
+    float split_at = 0.5f;
+    bool split_held = false;  ///< the line is dragged
+};
+/// A pixel's linear radiance and display values in 0…255.
+struct PixelValue {
+    glm::vec3 radiance{0.0f};
+    glm::ivec3 display{0};
+};
+/// Of both pictures of a view, where they are there.
+struct ProbeValues {
+    std::optional<PixelValue> first, second;
+};
+/// The mouse over a view: of the sheet, or −1, the one view.
+struct ProbedPoint {
+    int view = -1;
+    glm::vec2 at{0.0f};  ///< fraction of it, (0,0) the upper left corner
+};
+
+/// What maps are made from, and how.
+struct PhotoToMaps {
+    std::string photo;  ///< file; empty: none is chosen
+    MapSettings settings;
+    MapChoice choice;
+    std::string name;           ///< of the files
+    bool picking_card = false;  ///< the next click on the photo is a grey card
+    bool held = false;          ///< a corner is being dragged in this frame
+};
+/// What of them is there to be seen.
+struct MapsStatus {
+    TextureId photo = 0;  ///< first row at the top, as all of these
+    TextureId rectified = 0, even = 0, albedo = 0, height = 0, normal = 0, roughness = 0, ao = 0;
+    glm::ivec2 photo_px{0};
+    std::string error;  ///< one sentence
+    std::vector<std::string> notes;
+    bool making = false;      ///< files are being made
+    bool view_photo = false;  ///< the comparison's selected view has a photo
+};
+
 struct UiState {
+    AbSettings ab;
+    PhotoToMaps maps;
     AccuracySettings accuracy;
     bool split_drag = false;          ///< the split's line is held
     std::string left_tab, right_tab;  ///< panel ids; empty: the first
@@ -309,8 +357,9 @@ struct WorkspaceResult {
     bool viewport_active = false;    ///< orbiting, panning or turning the light
     bool item_active = false;        ///< a slider or text field is held: an undo step is not finished
     std::vector<SheetSize> sheet;    ///< while the sheet is shown
-    bool turn_all_lights = false;    ///< a turn of the light in this frame is meant for all views
-    bool wants_redraw = false;       ///< something moves by itself: draw another frame soon
+    std::optional<ProbedPoint> probed;
+    bool turn_all_lights = false;  ///< a turn of the light in this frame is meant for all views
+    bool wants_redraw = false;     ///< something moves by itself: draw another frame soon
 };
 
 struct PanelContext {
@@ -343,6 +392,9 @@ struct PanelContext {
     std::vector<SheetCell> sheet_cells;
     std::string sheet_file;  ///< empty: never saved
     bool sheet_unsaved = false;
+    Viewport::Picture ab_map;  ///< what UiState::ab asks for, where it is a map
+    ProbeValues probe;         ///< under the mouse
+    MapsStatus maps_status;
     const WorkLedger* work = nullptr;  ///< counted since the start, or since request::ClearWork
     const UnsavedQuestion* unsaved = nullptr;
     const RecoveryQuestion* recovery = nullptr;

@@ -58,6 +58,11 @@ void draw_selected(PanelContext& context) {
                "The view's row follows what is being edited, instead of a preset's file.",
                {.width = ImGui::GetContentRegionAvail().x, .enabled = !edited}))
         context.requests.push_back(request::ChangeSheet{request::SheetChange::ShowEdited, int(selected)});
+    Lighting& light = lighting_at(*context.sheet, places[selected]);
+    bool own = light.camera.has_value();
+    if (checkbox(context, "compare.own_camera", "A camera of its own",
+                 "The view does not follow when the others are turned.", own))
+        light.camera = own ? std::optional(context.camera) : std::nullopt;
     text_field(context, "compare.light_title", lighting_at(*context.sheet, places[selected]).title,
                "What the light is called in the sheet and the report.", {.hint = "Name of the light"});
 }

@@ -14,6 +14,7 @@ void draw_material_panel(PanelContext& context);
 void draw_light_panel(PanelContext& context);
 void draw_view_panel(PanelContext& context);
 void draw_sheet_panel(PanelContext& context);
+void draw_maps_panel(PanelContext& context);
 // Drawer.
 void draw_log_panel(PanelContext& context);
 void draw_work_panel(PanelContext& context);

@@ -111,6 +111,14 @@ struct PickCard {  ///< a card's colour sets exposure and white balance of that 
     glm::vec2 point{0.0f};  ///< fraction of the photo
     bool white = false;     ///< white paper instead of an 18 % grey card
 };
+struct SetMapPhoto {  ///< that maps are made from
+    std::string file;
+};
+struct MapPhotoOfView {};  ///< the photo of the sheet's selected view, with its points and balance
+struct PickMapCard {
+    glm::vec2 point{0.0f};  ///< fraction of the photo
+};
+struct MakeMaps {};  ///< as UiState::maps says, beside the preset
 struct ExportReport {
     std::string file;  ///< .html or .pdf
 };
@@ -140,6 +148,7 @@ using Request =
                  request::ApplyImport, request::CancelImport, request::LoadEnvironment, request::LoadMesh,
                  request::ExportRender, request::ShowSheet, request::ChangeSheet, request::OpenSheet,
                  request::SaveSheet, request::SaveSheetAs, request::SetPhoto, request::PickCard,
+                 request::SetMapPhoto, request::MapPhotoOfView, request::PickMapCard, request::MakeMaps,
                  request::ExportReport, request::CancelJob, request::ClearLog, request::ClearWork,
                  request::CopyText, request::ListFolder, request::MakeFolder>;
 using Requests = std::vector<Request>;

@@ -1,5 +1,6 @@
 // Views side by side in the viewport's place: one camera, each its own light and preset. Edits the selected
 // view through the context as the viewport does.
+#include "ui/ab_view.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/photo_overlay.h"
@@ -96,13 +97,22 @@ void draw_cell(PanelContext& context, int view, const Rect& rect) {
     }
     if (!tool && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
         ui.sheet_enlarged = ui.sheet_enlarged == view ? -1 : view;
+    if (!tool) probe_view(context, view, rect);
     const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
-    context.result.sheet.push_back({view,
-                                    {std::max(1, int(std::lround(rect.width() * pixels.x))),
-                                     std::max(1, int(std::lround(rect.height() * pixels.y)))}});
+    const glm::ivec2 size{std::max(1, int(std::lround(rect.width() * pixels.x))),
+                          std::max(1, int(std::lround(rect.height() * pixels.y)))};
+    context.result.sheet.push_back({view, size});
+    const bool enlarged = ui.sheet_enlarged == view;
+    if (enlarged && ui.ab.against >= 0) context.result.sheet.push_back({ui.ab.against, size});
+    const bool ab = !tool && ab_shown(context, view);
     draw_cell_picture(cell, rect, context);
-    draw_photo(context, view, rect);
-    draw_cell_labels(context, cell, rect, selected && context.sheet_cells.size() > 1);
+    if (ab)
+        draw_ab(context, view, rect);
+    else
+        draw_photo(context, view, rect);
+    if (!ab || ui.ab.how != AbHow::Split)
+        draw_cell_labels(context, cell, rect, selected && context.sheet_cells.size() > 1);
+    if (enlarged) draw_probe(context, rect);
     ImGui::PopID();
 }
 
@@ -122,6 +132,11 @@ void draw_bar(PanelContext& context) {
     } else if (button(context, "sheet.close", with_icon(icon::kBack, "One view"),
                       "Back to the one view; the sheet is kept (C).")) {
         context.requests.push_back(request::ShowSheet{false});
+    }
+    if (ui.sheet_enlarged >= 0) {
+        ImGui::SameLine();
+        draw_ab_choice(context);
+        return;
     }
     const bool room = context.sheet_cells.size() < 16;
     ImGui::SameLine();
@@ -157,6 +172,7 @@ void draw_sheet(PanelContext& context, const Rect& rect) {
     ui.photo_held = false;
     ui.sheet_selected = std::clamp(ui.sheet_selected, 0, std::max(0, views - 1));
     if (ui.sheet_enlarged >= views) ui.sheet_enlarged = -1;
+    if (ui.ab.against >= views || ui.ab.against == ui.sheet_enlarged) ui.ab.against = kAgainstNothing;
     context.result.turn_all_lights = ui.sheet_turn_all || ImGui::GetIO().KeyAlt;
     const float bar = ImGui::GetFrameHeight() + 2.0f * px(kBarPad);
     const Rect bar_rect{rect.x0, rect.y0, rect.x1, std::min(rect.y1, rect.y0 + bar)};

@@ -1,5 +1,6 @@
 // The picture and what the mouse does on it: orbit, pan, zoom, turn the light. Edits camera and view, nothing
 // else.
+#include "ui/ab_view.h"
 #include "ui/icons.h"
 #include "ui/navigation.h"
 #include "ui/panels.h"
@@ -25,7 +26,7 @@ void handle_view_mouse(PanelContext& context, const Rect& rect) {
         ui.rotating_light = io.MouseDown[ImGuiMouseButton_Right] || io.KeyCtrl || io.KeysDown[KeyL];
     }
     if (!active) ui.viewport_drag = ui.rotating_light = false;
-    if (!context.sheet && drag_split(context, rect)) {
+    if (context.sheet ? drag_ab(context, rect) : drag_split(context, rect)) {
         ui.viewport_drag = ui.rotating_light = false;
         return;
     }
@@ -127,9 +128,11 @@ void draw_viewport(PanelContext& context, const Rect& rect) {
         act(context, Action::Home);
     context.ui.viewport_used |= moved_before || (ImGui::IsItemHovered() && ImGui::GetIO().MouseWheel != 0.0f);
     context.result.viewport_active = context.ui.viewport_drag;
+    probe_view(context, -1, rect);
     draw_picture(context, rect);
     draw_overlays(context, rect);
     draw_layer_marks(context, rect);
+    if (context.ui.accuracy.meter || context.ui.accuracy.split) draw_probe(context, rect);
     draw_drop_hint(context, rect);
     end_region();
 }

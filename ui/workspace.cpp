@@ -139,6 +139,8 @@ std::vector<Panel> builtin_panels() {
         {"view", "View", "Shading, camera and mesh.", Side::Right, draw_view_panel},
         {"sheet", "Compare", "Views side by side: presets, lightings, photos and the report.", Side::Right,
          draw_sheet_panel},
+        {"maps", "Maps", "Albedo, normal, roughness and occlusion maps from a photo.", Side::Right,
+         draw_maps_panel},
         {"log", "Log", "What the program has said.", Side::Bottom, draw_log_panel},
         {"work", "Work", "What was computed, and what was skipped and why.", Side::Bottom, draw_work_panel},
         {"accuracy", "Accuracy", "How far the shading is from the reference, and what it costs.",

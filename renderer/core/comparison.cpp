@@ -42,6 +42,10 @@ View view_of(const Comparison& comparison, const Lighting& lighting) {
             .quality = comparison.quality};
 }
 
+const Camera& camera_of(const Comparison& comparison, const Lighting& lighting) {
+    return lighting.camera ? *lighting.camera : comparison.camera;
+}
+
 Lighting lighting_of(const View& view, const std::string& environment) {
     return {.environment = environment,
             .rotation_deg = view.env_rotation_deg,
@@ -141,6 +145,7 @@ const char* describe_lighting(const Lighting& before, const Lighting& after) {
     if (before.photo != after.photo)
         return before.photo && after.photo ? describe_photo(*before.photo, *after.photo) : "Photo";
     if (before.title != after.title) return "Title";
+    if (before.camera != after.camera) return "Camera";
     return "Background";
 }
 }  // namespace

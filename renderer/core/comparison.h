@@ -55,6 +55,7 @@ struct Lighting {
     Tonemap tonemap = Tonemap::Neutral;
     Background background = Background::Environment;
     glm::vec3 plain_color{0.18f};  ///< linear, 0…1
+    std::optional<Camera> camera;  ///< of its own; without: the comparison's
     std::optional<Photo> photo;    ///< taken under this light
     std::string unknown_json;
     bool operator==(const Lighting&) const = default;
@@ -84,7 +85,7 @@ inline constexpr std::size_t kMaxFreeViews = 1000;
 struct Comparison {
     std::string title, author, remarks;
     std::string mesh = "sphere";  ///< id or path
-    Camera camera;                ///< of every view
+    Camera camera;                ///< of every view that has none of its own
     Shading shading = View{}.shading;
     Quality quality = View{}.quality;
     std::vector<ComparedPreset> rows;
@@ -109,6 +110,7 @@ ComparedPreset& preset_at(Comparison& comparison, ViewPlace place);
 Lighting& lighting_at(Comparison& comparison, ViewPlace place);
 
 View view_of(const Comparison& comparison, const Lighting& lighting);
+const Camera& camera_of(const Comparison& comparison, const Lighting& lighting);
 /// The light of a view as a lighting; what a view does not know is default.
 Lighting lighting_of(const View& view, const std::string& environment);
 

@@ -69,14 +69,26 @@ private:
     fs::path file_;
 };
 
-/// A name of its own in the same folder: ".NAME.xxxxxxxx.tmp".
+/// A name of its own in the same folder: ".patina-xxxxxxxx.tmp". Short, for the file's own may be as long as
+/// names can be.
 fs::path temporary_name(const fs::path& file) {
     std::array<char, 16> random{};
     std::snprintf(random.data(), random.size(), "%08x", static_cast<unsigned>(std::random_device()()));
-    fs::path name = ".";
-    name += file.filename();
-    name += std::string(".") + random.data() + ".tmp";
-    return file.parent_path() / name;
+    return file.parent_path() / (std::string(".patina-") + random.data() + ".tmp");
+}
+
+/// Where a chain of symbolic links ends, whether or not something is there: what is written through a link
+/// replaces the file, not the link.
+fs::path end_of_links(const fs::path& file) {
+    std::error_code error;
+    fs::path path = file;
+    for (int links = 0; fs::is_symlink(fs::symlink_status(path, error)); ++links) {
+        if (links == 40) fail(file, "its symbolic links go in a circle; choose another name");
+        const fs::path next = fs::read_symlink(path, error);
+        if (error) fail(file, "cannot be followed (" + error.message() + "); choose another name");
+        path = path.parent_path() / next;
+    }
+    return path;
 }
 
 void write_all(const fs::path& file, const fs::path& temporary, std::span<const std::byte> bytes) {
@@ -118,11 +130,15 @@ std::vector<std::byte> read_file(const fs::path& file, std::uint64_t max_bytes) 
 void write_file(const fs::path& file, std::span<const std::byte> bytes) {
     std::error_code error;
     if (file.filename().empty()) fail(file, "is not a file name; add one");
-    if (fs::is_directory(file, error)) fail(file, "is a folder; name a file in it");
-    const fs::path temporary = temporary_name(file);
+    const fs::path target = end_of_links(file);
+    const fs::file_status status = fs::status(target, error);
+    if (fs::is_directory(status)) fail(file, "is a folder; name a file in it");
+    if (fs::exists(status) && !fs::is_regular_file(status))
+        fail(file, "is not a regular file; choose another name");
+    const fs::path temporary = temporary_name(target);
     Leftover leftover(temporary);
     write_all(file, temporary, bytes);
-    fs::rename(temporary, file, error);
+    fs::rename(temporary, target, error);
     if (error) fail(file, "cannot be replaced (" + error.message() + "); choose another name");
     leftover.keep();
 }

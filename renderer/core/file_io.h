@@ -19,8 +19,8 @@ std::vector<std::byte> read_file(const std::filesystem::path& file,
                                  std::uint64_t max_bytes = ~std::uint64_t{0});
 
 /// Writes to a temporary file in the same folder, flushes it to the disk and renames it over file: a reader
-/// sees the old or the new contents, never a part. Throws std::runtime_error and leaves nothing behind when
-/// that fails.
+/// sees the old or the new contents, never a part. Symbolic links are followed. Throws std::runtime_error
+/// and leaves nothing behind when that fails.
 void write_file(const std::filesystem::path& file, std::span<const std::byte> bytes);
 
 }  // namespace patina

@@ -1,12 +1,17 @@
-// The module patina_images: JPEG, TIFF, TGA, BMP and PNG with camera data through OpenImageIO, which brings
-// some 250 shared libraries along and therefore stays out of the program until a picture needs it.
+// The module patina_images: JPEG, TIFF, TGA, BMP and PNG with camera data, and the Fourier transform, through
+// OpenImageIO, which brings some 250 shared libraries along and therefore stays out of the program until a
+// picture needs it.
 #include "renderer/core/file_io.h"
+#include "renderer/core/fourier.h"
 #include "renderer/core/image_channels.h"
 #include "renderer/core/image_codec.h"
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
+#include <cstring>
 #include <memory>
 #include <stdexcept>
 
@@ -143,6 +148,34 @@ DecodedImage decode(const ImageSource& source) {
 
 constexpr ImageCodec kCodec{.header = header, .decode = decode};
 
+// ---- the Fourier transform ----
+
+OIIO::ImageBuf buffer_of(const Image& image) {
+    const OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
+    OIIO::ImageBuf buffer(spec, OIIO::InitializePixels::No);
+    std::memcpy(buffer.localpixels(), image.bytes.data(), image.bytes.size());
+    return buffer;
+}
+
+Image image_of(const OIIO::ImageBuf& buffer) {
+    if (buffer.has_error()) throw std::runtime_error(one_line(buffer.geterror()));
+    const OIIO::ImageSpec& spec = buffer.spec();
+    Image image = make_image(spec.width, spec.height, spec.nchannels, PixelType::F32);
+    buffer.get_pixels(OIIO::ROI::All(), OIIO::TypeDesc::FLOAT, image.bytes.data());
+    return image;
+}
+
+Image forward(const Image& picture) {
+    configure_library();
+    return image_of(OIIO::ImageBufAlgo::fft(buffer_of(picture), {}, 1));
+}
+Image inverse(const Image& spectrum) {
+    configure_library();
+    return image_of(OIIO::ImageBufAlgo::ifft(buffer_of(spectrum), {}, 1));
+}
+
+constexpr FourierTransform kFourier{.forward = forward, .inverse = inverse};
+
 }  // namespace
 }  // namespace patina
 
@@ -154,3 +187,8 @@ constexpr ImageCodec kCodec{.header = header, .decode = decode};
 
 extern "C" PATINA_EXPORT const patina::ImageCodec* patina_image_codec();
 extern "C" PATINA_EXPORT const patina::ImageCodec* patina_image_codec() { return &patina::kCodec; }
+
+extern "C" PATINA_EXPORT const patina::FourierTransform* patina_fourier_transform();
+extern "C" PATINA_EXPORT const patina::FourierTransform* patina_fourier_transform() {
+    return &patina::kFourier;
+}

@@ -1,5 +1,8 @@
 #include "renderer/core/metrics.h"
 
+#include "renderer/core/color_difference.h"
+#include "renderer/core/flip.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -58,6 +61,18 @@ Image relative_error(const Image& picture, const Image& reference) {
     return result;
 }
 
+Image signed_difference(const Image& picture, const Image& reference) {
+    assert(picture.width == reference.width && picture.height == reference.height);
+    const auto light = [](const Image& image, int x, int y) {
+        return luminance({texel(image, x, y, 0), texel(image, x, y, 1), texel(image, x, y, 2)});
+    };
+    Image result = make_image(reference.width, reference.height, 1, PixelType::F32);
+    for (int y = 0; y < reference.height; ++y)
+        for (int x = 0; x < reference.width; ++x)
+            set_texel(result, x, y, 0, light(picture, x, y) - light(reference, x, y));
+    return result;
+}
+
 double mean_value(const Image& values, const Image& mask) {
     double sum = 0.0;
     std::size_t pixels = 0;
@@ -85,15 +100,41 @@ void viridis(double t, float rgb[3]) {
     }
 }
 
-Image viridis_picture(const Image& values, double white) {
+void diverging(double t, float rgb[3]) {
+    static constexpr float kEnds[3][3] = {
+        {0.05f, 0.30f, 0.85f}, {0.88f, 0.88f, 0.88f}, {0.85f, 0.15f, 0.10f}};
+    const float x = float(std::clamp(t, -1.0, 1.0));
+    for (int c = 0; c < 3; ++c)
+        rgb[c] = kEnds[1][c] + std::abs(x) * (kEnds[x < 0.0f ? 0 : 2][c] - kEnds[1][c]);
+}
+
+namespace {
+/// values / white as colours.
+template <class Ramp>
+Image colored(const Image& values, double white, const Ramp& ramp) {
     Image result = make_image(values.width, values.height, 3, PixelType::U8);
     for (int y = 0; y < values.height; ++y)
         for (int x = 0; x < values.width; ++x) {
             float rgb[3];
-            viridis(double(texel(values, x, y, 0)) / white, rgb);
+            ramp(double(texel(values, x, y, 0)) / white, rgb);
             for (int c = 0; c < 3; ++c) set_texel(result, x, y, c, rgb[c]);
         }
     return result;
+}
+}  // namespace
+
+Image viridis_picture(const Image& values, double white) { return colored(values, white, viridis); }
+
+Image difference_picture(const Image& picture, const Image& reference, DifferenceKind kind) {
+    switch (kind) {
+        case DifferenceKind::Signed:
+            return colored(signed_difference(picture, reference), kSignedWhite, diverging);
+        case DifferenceKind::Relative:
+            return colored(relative_error(picture, reference), kErrorWhite, viridis);
+        case DifferenceKind::Flip:
+            break;
+    }
+    return colored(hdr_flip(reference, picture), kFlipWhite, viridis);
 }
 
 }  // namespace patina

@@ -16,6 +16,9 @@ PictureError picture_error(const Image& picture, const Image& reference, const I
 /// The same at each pixel: the mean of its channels' errors. 1 channel, F32.
 Image relative_error(const Image& picture, const Image& reference);
 
+/// Luminance of picture − reference, linear. 1 channel, F32.
+Image signed_difference(const Image& picture, const Image& reference);
+
 /// Mean of a 1-channel picture where the mask (as above) says.
 double mean_value(const Image& values, const Image& mask = {});
 
@@ -24,5 +27,16 @@ double mean_value(const Image& values, const Image& mask = {});
 Image viridis_picture(const Image& values, double white);
 /// One colour of it, t in 0…1; sRGB code values 0…1.
 void viridis(double t, float rgb[3]);
+
+/// −1 … 1 as colours: blue through grey to red, equally light on both sides. sRGB code values 0…1.
+void diverging(double t, float rgb[3]);
+
+/// How two pictures are held against each other: signed_difference, relative_error or hdr_flip.
+enum class DifferenceKind { Signed, Relative, Flip };
+inline constexpr double kSignedWhite = 0.25;  ///< linear light at the ends of the ramp
+inline constexpr double kErrorWhite = 0.2;    ///< relative error at the ramp's end
+inline constexpr double kFlipWhite = 0.5;
+/// The map of that in colours, up to these ends. 3 channels, U8, sRGB. Both: 3 channels of linear light.
+Image difference_picture(const Image& picture, const Image& reference, DifferenceKind kind);
 
 }  // namespace patina

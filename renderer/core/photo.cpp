@@ -96,6 +96,11 @@ std::optional<glm::vec3> patch_color(const Image& photo, glm::vec2 center, float
     return glm::vec3(sum / double(colors.size() - 2 * cut));
 }
 
+std::optional<glm::vec3> card_patch(const Image& photo, glm::vec2 fraction) {
+    const float radius = std::max(2.0f, 0.006f * float(std::max(photo.width, photo.height)));
+    return patch_color(photo, fraction * glm::vec2(photo.width, photo.height), radius);
+}
+
 std::optional<PhotoBalance> balance_to(glm::vec3 patch, glm::vec3 target) {
     for (int c = 0; c < 3; ++c)
         if (!(patch[c] > 1e-4f) || patch[c] >= kClipped || !(target[c] > 0.0f)) return std::nullopt;

@@ -27,6 +27,9 @@ Image linear_photo(const Image& image);
 /// scratch or a gloss does not count. nullopt outside the picture.
 std::optional<glm::vec3> patch_color(const Image& photo, glm::vec2 center, float radius_px);
 
+/// The same around a fraction of the photo, as far as a card there surely reaches.
+std::optional<glm::vec3> card_patch(const Image& photo, glm::vec2 fraction);
+
 struct PhotoBalance {
     float exposure_ev = 0.0f;
     glm::vec3 white_balance{1.0f};  ///< leaves the luminance of the patch as exposure alone makes it

@@ -120,12 +120,14 @@ bool EnvironmentWriter::step(const PreparedLight& light, std::size_t byte_budget
     const KeepTextureBindings keep;
     std::size_t spent = 0;
     while (spent == 0 || spent < byte_budget) {
-        if (next_cube_ < light.levels.levels.size())
+        if (next_cube_ < light.levels.levels.size()) {
             spent += write_cube(light.levels);
-        else if (!light.panorama_of && level_ < light.panorama.levels.size())
+        } else if (!light.panorama_of && level_ < light.panorama.levels.size()) {
             spent += write_rows(light.panorama, byte_budget > spent ? byte_budget - spent : 0);
-        else
+        } else {
+            check_memory("the light");  // a driver may find a place only for what is written
             return true;
+        }
     }
     return false;
 }

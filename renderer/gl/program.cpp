@@ -128,12 +128,12 @@ void bind_interface(GLuint program) {
         {"emission_map", kFirstMapUnit + 5},
         {"lobe_table", kLobesUnit},
         {"picture", kPictureUnit},
-        {"reference_points", kReferenceUnit},
         {"stored_normals", kFirstStoredUnit + 0},
         {"stored_views", kFirstStoredUnit + 1},
-        {"stored_colors", kFirstStoredUnit + 2},
-        {"stored_scalars", kFirstStoredUnit + 3},
-        {"stored_emissions", kFirstStoredUnit + 4},
+        {"stored_turns", kFirstStoredUnit + 2},
+        {"stored_colors", kFirstStoredUnit + 3},
+        {"stored_scalars", kFirstStoredUnit + 4},
+        {"stored_emissions", kFirstStoredUnit + 5},
         {"fragment_places", kFragmentPlacesUnit},
         {"fragment_of_pixel", kFragmentOfPixelUnit},
         {"fragments_of_samples", kFragmentsOfSamplesUnit},
@@ -146,8 +146,8 @@ void bind_interface(GLuint program) {
         if (location >= 0) glUniform1i(location, GLint(unit));
     }
     glUseProgram(GLuint(previous));
-    static constexpr std::pair<const char*, GLuint> uniform_blocks[] = {{"FrameBlock", kFrameSlot},
-                                                                        {"MaterialBlock", kMaterialSlot}};
+    static constexpr std::pair<const char*, GLuint> uniform_blocks[] = {
+        {"FrameBlock", kFrameSlot}, {"MaterialBlock", kMaterialSlot}, {"PointBlock", kPointSlot}};
     for (const auto& [name, slot] : uniform_blocks) {
         const GLuint index = glGetUniformBlockIndex(program, name);
         if (index != GL_INVALID_INDEX) glUniformBlockBinding(program, index, slot);

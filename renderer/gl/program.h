@@ -52,13 +52,13 @@ inline constexpr GLuint kIrradianceUnit = 2;
 inline constexpr GLuint kBrdfUnit = 3;
 inline constexpr GLuint kFirstMapUnit = 4;  ///< six of them, in MapSlot's order
 inline constexpr GLuint kLobesUnit = 10;
-inline constexpr GLuint kReferenceUnit = 11;   ///< the reference's points
-inline constexpr GLuint kFirstStoredUnit = 4;  ///< five of them, while no map is bound
-inline constexpr GLuint kFragmentPlacesUnit = 9;
+inline constexpr GLuint kFirstStoredUnit = 4;  ///< six of them, while no map is bound
+inline constexpr GLuint kFragmentPlacesUnit = 11;
 inline constexpr GLuint kFragmentOfPixelUnit = 4;     ///< beside the picture
 inline constexpr GLuint kFragmentsOfSamplesUnit = 5;  ///< likewise
 inline constexpr GLuint kPictureUnit = 0;             ///< what the display pass reads
 inline constexpr GLuint kFrameSlot = 0;               ///< uniform buffer binding of FrameBlock
 inline constexpr GLuint kMaterialSlot = 1;            ///< and of MaterialBlock
+inline constexpr GLuint kPointSlot = 2;               ///< and of PointBlock
 
 }  // namespace patina::gl

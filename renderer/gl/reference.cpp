@@ -101,13 +101,10 @@ void clear_reference(ReferenceTarget& target) {
     }
 }
 
-void set_reference_points(ReferenceTarget& target, const std::vector<glm::vec4>& rows) {
-    const KeepTextureBindings keep;
-    if (!target.points) target.points = Texture::make();
-    glBindTexture(GL_TEXTURE_2D, target.points.name());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, GLsizei(rows.size() / 3), 3, 0, GL_RGBA, GL_FLOAT,
-                 rows.data());
-    no_filter(GL_TEXTURE_2D);
+void set_reference_points(ReferenceTarget& target, const blocks::PointBlock& points) {
+    if (!target.points) target.points = Buffer::make();
+    glBindBuffer(GL_UNIFORM_BUFFER, target.points.name());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof points, &points, GL_STREAM_DRAW);
 }
 
 void begin_reference_slice(const ReferenceTarget& target, int replicate, float weight) {

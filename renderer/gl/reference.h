@@ -4,6 +4,7 @@
 #include "renderer/gl/environment.h"
 #include "renderer/gl/target.h"
 #include "renderer/ibl/light_sampler.h"
+#include "renderer/shaders/blocks.h"
 
 #include <glm/vec4.hpp>
 
@@ -18,7 +19,7 @@ struct ReferenceTarget {
     glm::ivec2 size{1};
     gl::Texture sum;         ///< of all replicates, slices by their weights; alpha: coverage likewise
     gl::Texture replicates;  ///< one layer each: likewise, the mean of the three channels, the mesh only
-    gl::Texture points;      ///< rows of shaders/reference.frag.glsl
+    gl::Buffer points;       ///< blocks.h's PointBlock
     gl::Renderbuffer depth;
     std::array<gl::Framebuffer, kReplicates> framebuffers;  ///< sum and one replicate
     gl::Program mean;
@@ -31,8 +32,8 @@ namespace gl {
 ReferenceTarget make_reference_target(glm::ivec2 size);
 /// Everything back to black.
 void clear_reference(ReferenceTarget& target);
-/// rows: 3 × count values.
-void set_reference_points(ReferenceTarget& target, const std::vector<glm::vec4>& rows);
+/// The points of the slices that follow.
+void set_reference_points(ReferenceTarget& target, const blocks::PointBlock& points);
 
 /// Between begin and end what is drawn is added to a replicate and to the sum, weight (0…1) times; depth is
 /// clear.

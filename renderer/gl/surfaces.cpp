@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint32_t kMixedPixel = 0x80000000u;
 
 int layer_count(SurfaceMaps maps) {
-    return maps == SurfaceMaps::None ? 2 : maps == SurfaceMaps::Some ? 4 : 5;
+    return maps == SurfaceMaps::None ? 3 : maps == SurfaceMaps::Some ? 5 : 6;
 }
 
 std::uint64_t texels_in(glm::ivec2 size) { return std::uint64_t(size.x) * std::uint64_t(size.y); }
@@ -50,7 +50,7 @@ void attach(int place, GLenum kind, const Texture& texture) {
 }
 
 void draw_into(int attachments) {
-    std::array<GLenum, 6> places{};
+    std::array<GLenum, 7> places{};
     for (int i = 0; i < attachments; ++i) places[std::size_t(i)] = GL_COLOR_ATTACHMENT0 + GLenum(i);
     glDrawBuffers(attachments, places.data());
 }

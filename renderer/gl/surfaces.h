@@ -25,7 +25,7 @@ struct GpuSurfaces {
     int samples = 1;
     int mesh_rows = 0;  ///< of fragments of the mesh; the rest are rays
     int rows = 0;
-    std::array<gl::Texture, 5> layers;  ///< in the order of shaders/stored.glsl; those of maps may lack
+    std::array<gl::Texture, 6> layers;  ///< in the order of shaders/stored.glsl; those of maps may lack
     gl::Texture fragment_of_pixel;
     gl::Texture fragments_of_samples;
     std::uint64_t mesh_fragments = 0;
@@ -61,7 +61,7 @@ private:
     int samples_ = 0;
     SurfaceMaps maps_ = SurfaceMaps::None;
     Texture fragments_;  ///< of which triangle
-    std::array<Texture, 5> layers_;
+    std::array<Texture, 6> layers_;
     Renderbuffer depth_;
     Framebuffer framebuffer_;
 };

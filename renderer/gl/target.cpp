@@ -7,6 +7,8 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -30,9 +32,10 @@ int offered_samples(int wanted) {
     return samples;
 }
 
-void require_complete(const RenderTarget& target) {
-    const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
-    if (status == GL_FRAMEBUFFER_COMPLETE) return;
+/// Of the framebuffer just bound.
+bool is_complete() { return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE; }
+
+[[noreturn]] void refuse(const RenderTarget& target) {
     throw std::runtime_error("The graphics driver offers no picture of " + std::to_string(target.size.x) +
                              "×" + std::to_string(target.size.y) + " with " + std::to_string(target.samples) +
                              " samples to draw into: choose a smaller size.");
@@ -46,7 +49,8 @@ void plain_filter() {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
 }
 
-void make_radiance(RenderTarget& target) {
+/// False where the driver cannot draw into it.
+bool make_radiance(RenderTarget& target) {
     const GLenum format = target.full_float ? GL_RGBA32F : GL_RGBA16F;
     target.radiance = Texture::make();
     target.depth = Renderbuffer::make();
@@ -69,10 +73,10 @@ void make_radiance(RenderTarget& target) {
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, target.radiance_kind(),
                            target.radiance.name(), 0);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target.depth.name());
-    require_complete(target);
+    return is_complete();
 }
 
-void make_display(RenderTarget& target) {
+bool make_display(RenderTarget& target) {
     target.display = Texture::make();
     target.display_framebuffer = Framebuffer::make();
     glBindTexture(GL_TEXTURE_2D, target.display.name());
@@ -81,34 +85,37 @@ void make_display(RenderTarget& target) {
     plain_filter();
     glBindFramebuffer(GL_FRAMEBUFFER, target.display_framebuffer.name());
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.display.name(), 0);
-    require_complete(target);
+    return is_complete();
 }
 
 /// Radiance and coverage of the whole picture, bottom row first; multisampled ones are averaged by the
 /// driver.
-std::vector<glm::vec4> read_resolved(const RenderTarget& target, const std::function<void()>& resolve) {
+/// The pixels of a rectangle, its corner the lower left one, samples put together.
+std::vector<glm::vec4> read_resolved(const RenderTarget& target, glm::ivec2 corner, glm::ivec2 size,
+                                     const std::function<void()>& resolve) {
     RenderTarget single;
     GLuint source = target.radiance_framebuffer.name();
     if (target.stored.surfaces) {
         single.size = target.size;
         single.full_float = true;
-        make_radiance(single);
+        if (!make_radiance(single)) refuse(single);
         resolve();
         source = single.radiance_framebuffer.name();
     } else if (target.samples > 1) {
-        single.size = target.size;
+        single.size = size;
         single.full_float = true;
-        make_radiance(single);
+        if (!make_radiance(single)) refuse(single);
         glBindFramebuffer(GL_READ_FRAMEBUFFER, source);
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, single.radiance_framebuffer.name());
-        glBlitFramebuffer(0, 0, target.size.x, target.size.y, 0, 0, target.size.x, target.size.y,
+        glBlitFramebuffer(corner.x, corner.y, corner.x + size.x, corner.y + size.y, 0, 0, size.x, size.y,
                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
         source = single.radiance_framebuffer.name();
+        corner = {0, 0};
     }
-    std::vector<glm::vec4> pixels(std::size_t(target.size.x) * target.size.y);
+    std::vector<glm::vec4> pixels(std::size_t(size.x) * size.y);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, source);
     glReadBuffer(GL_COLOR_ATTACHMENT0);
-    glReadPixels(0, 0, target.size.x, target.size.y, GL_RGBA, GL_FLOAT, pixels.data());
+    glReadPixels(corner.x, corner.y, size.x, size.y, GL_RGBA, GL_FLOAT, pixels.data());
     return pixels;
 }
 
@@ -123,10 +130,15 @@ RenderTarget make_render_target(glm::ivec2 size, int samples, bool full_float) {
     target.size = glm::clamp(size, glm::ivec2(1), glm::ivec2(limit));
     target.samples = offered_samples(samples);
     target.full_float = full_float;
-    make_radiance(target);
-    make_display(target);
+    bool is_whole = make_radiance(target) && make_display(target);
+    if (target.samples > 1 &&
+        (ran_out_of_memory() || !is_whole)) {  // better with jagged edges than not at all
+        target.samples = 1;
+        is_whole = make_radiance(target) && make_display(target);
+    }
     glBindRenderbuffer(GL_RENDERBUFFER, 0);
     check_memory("the picture");
+    if (!is_whole) refuse(target);
     return target;
 }
 
@@ -152,7 +164,7 @@ Image read_radiance_pixels(const RenderTarget& target, const std::function<void(
     const KeepDrawState keep;
     const KeepReadState keep_read;
     const KeepTextureBindings keep_textures;
-    const std::vector<glm::vec4> pixels = read_resolved(target, resolve);
+    const std::vector<glm::vec4> pixels = read_resolved(target, {0, 0}, target.size, resolve);
     Image image = make_image(target.size.x, target.size.y, 3, PixelType::F32);
     auto* out = reinterpret_cast<float*>(image.bytes.data());
     for (int y = 0; y < target.size.y; ++y) {
@@ -163,6 +175,22 @@ Image read_radiance_pixels(const RenderTarget& target, const std::function<void(
         }
     }
     return image;
+}
+
+PixelValue read_pixel_value(const RenderTarget& target, glm::ivec2 pixel,
+                            const std::function<void()>& resolve) {
+    const KeepDrawState keep;
+    const KeepReadState keep_read;
+    const KeepTextureBindings keep_textures;
+    const glm::ivec2 corner(pixel.x, target.size.y - 1 - pixel.y);
+    const glm::vec4 seen = read_resolved(target, corner, {1, 1}, resolve).front();
+    PixelValue value{glm::vec3(seen) + (1.0f - seen.w) * target.plain, {}};
+    std::array<std::uint8_t, 4> display{};
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, target.display_framebuffer.name());
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    glReadPixels(corner.x, corner.y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, display.data());
+    value.display = {display[0], display[1], display[2]};
+    return value;
 }
 
 KeepDrawState::KeepDrawState() {

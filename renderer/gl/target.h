@@ -48,6 +48,13 @@ float largest_radiance(const RenderTarget& target);
 Image read_display_pixels(const RenderTarget& target);
 /// resolve: draws the mean of the samples of a stored picture over the picture that is bound.
 Image read_radiance_pixels(const RenderTarget& target, const std::function<void()>& resolve);
+/// Of one pixel, (0,0) the upper left one.
+struct PixelValue {
+    glm::vec3 radiance{0.0f};
+    glm::ivec3 display{0};  ///< 0…255
+};
+PixelValue read_pixel_value(const RenderTarget& target, glm::ivec2 pixel,
+                            const std::function<void()>& resolve);
 
 /// Everything a draw changes and other code may rely on, put back at the end.
 class KeepDrawState {

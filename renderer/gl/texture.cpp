@@ -9,6 +9,8 @@ namespace patina::gl {
 
 namespace {
 
+constexpr int kCoarsestMap = 64;  ///< texels a side: what has no place for these has none for anything
+
 struct Format {
     GLenum internal;
     GLenum external;
@@ -86,36 +88,67 @@ KeepTextureBindings::~KeepTextureBindings() {
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, GLuint(buffer_));
 }
 
-void check_memory(const char* what) {
+bool ran_out_of_memory() {
     bool out_of_memory = false;
     for (int i = 0; i < 16; ++i) {
         const GLenum error = glGetError();
         if (error == GL_NO_ERROR) break;
         out_of_memory = out_of_memory || error == GL_OUT_OF_MEMORY;
     }
-    if (out_of_memory)
+    return out_of_memory;
+}
+
+void check_memory(const char* what) {
+    if (ran_out_of_memory())
         throw std::runtime_error(std::string("The graphics card has no memory left for ") + what +
                                  ": close other programs or use smaller pictures.");
 }
 
-TextureWriter::TextureWriter(const std::vector<Image>& levels, bool srgb) {
+TextureWriter::TextureWriter(const std::vector<Image>& levels, bool srgb) : srgb_(srgb) {
     const KeepTextureBindings keep;
     GLint limit = 1024;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     const int last = int(levels.size()) - 1;
     while (first_level_ < last && std::max(levels[first_level_].width, levels[first_level_].height) > limit)
         ++first_level_;
-    level_ = last;
-    map_ = {Texture::make(), levels[first_level_].width, levels[first_level_].height};
+    allocate(levels);
+}
+
+void TextureWriter::allocate(const std::vector<Image>& levels) {
+    while (!try_allocate(levels)) leave_out_finest(levels);
+    level_ = int(levels.size()) - 1;
+    row_ = 0;
+}
+
+bool TextureWriter::try_allocate(const std::vector<Image>& levels) {
+    const int last = int(levels.size()) - 1;
+    map_.texture = {};  // what it held may be what is missing now
+    map_.texture = Texture::make();
+    map_.width = levels[first_level_].width;
+    map_.height = levels[first_level_].height;
     glBindTexture(GL_TEXTURE_2D, map_.texture.name());
     set_map_filter(last - first_level_ + 1);
     set_grey_swizzle(levels[0].channels);
     for (int i = first_level_; i <= last; ++i) {
-        const Format format = format_of(levels[i], srgb);
+        const Format format = format_of(levels[i], srgb_);
         glTexImage2D(GL_TEXTURE_2D, i - first_level_, GLint(format.internal), levels[i].width,
                      levels[i].height, 0, format.external, format.type, nullptr);
     }
-    check_memory("a map");
+    return !ran_out_of_memory();
+}
+
+void TextureWriter::leave_out_finest(const std::vector<Image>& levels) {
+    const auto size = [&](int level) {
+        return std::to_string(levels[level].width) + "×" + std::to_string(levels[level].height);
+    };
+    const Image& finest = levels[first_level_];
+    if (first_level_ + 1 == int(levels.size()) || std::max(finest.width, finest.height) <= kCoarsestMap)
+        throw std::runtime_error(
+            "The graphics card has no memory left for a map: close other programs or use smaller pictures.");
+    ++first_level_;
+    map_.note = "The graphics card has no memory left for the whole map: it is drawn with " +
+                size(first_level_) + " of " + size(0) +
+                " texels; close other programs or use smaller pictures, and read it again.";
 }
 
 bool TextureWriter::step(const std::vector<Image>& levels, std::size_t byte_budget) {
@@ -135,7 +168,11 @@ bool TextureWriter::step(const std::vector<Image>& levels, std::size_t byte_budg
         row_ = 0;
         --level_;
     }
-    return level_ < first_level_;
+    if (level_ >= first_level_) return false;
+    if (!ran_out_of_memory()) return true;
+    leave_out_finest(levels);  // a driver may find a place only for what is written
+    allocate(levels);
+    return false;
 }
 
 GpuMap make_interface_texture(const Image& image) {

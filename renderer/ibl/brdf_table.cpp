@@ -1,5 +1,6 @@
 // The split-sum table: directional albedo of GGX with height-correlated Smith, split by the Fresnel weight.
-#include "renderer/ibl/bake.h"
+#include "renderer/ibl/brdf_table.h"
+
 #include "renderer/ibl/brdf_simd.h"
 
 #include <glm/common.hpp>
@@ -8,21 +9,20 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace patina {
 namespace {
 
 /// Nodes on the unit square: a Fibonacci lattice (i/n, {i·f/n}), the best-spread rank-1 rule of its size, n
-/// and f consecutive Fibonacci numbers. The second coordinate is periodic (an azimuth); the first is not, so
-/// it is pulled towards both ends by u = s²(3 − 2s), whose Jacobian 6s(1 − s) vanishes there: the integrand
-/// becomes periodic in s too.
+/// and f consecutive Fibonacci numbers: A and B err by at most 1.1e-4 with 1597 nodes, 3.9e-5 with 4181. The
+/// second coordinate is periodic (an azimuth); the first is not, so it is pulled towards both ends by u =
+/// s²(3 − 2s), whose Jacobian 6s(1 − s) vanishes there: the integrand becomes periodic in s too.
 struct Lattice {
     std::vector<float> height, cos_phi, sin_phi, weight;
 
-    Lattice() {
-        constexpr int nodes = 1597;
-        constexpr int previous = 987;
+    Lattice(int nodes, int previous) {
         for (int i = 0; i < nodes || i % simd::kAlbedoNodes != 0; ++i) {
             const double s = (i + 0.5) / nodes;
             const double phi = 2.0 * std::numbers::pi * std::fmod(double(i) * previous, nodes) / nodes;
@@ -81,16 +81,16 @@ std::vector<glm::dvec2> balanced(const std::vector<glm::dvec2>& exact, int size)
     return result;
 }
 
-}  // namespace
-
-BrdfTable bake_brdf_table(int size, const ParallelFor& parallel_for) {
+/// Texel i lies at place(i) on either axis.
+BrdfTable bake_table(int size, const Lattice& lattice, const ParallelFor& parallel_for,
+                     const std::function<double(int)>& place) {
     assert(size >= 3);
-    const Lattice lattice;
+    constexpr double least_root = 1e-3, least_roughness = 1e-3;  // the limits at 0, short of dividing by it
     std::vector<glm::dvec2> exact(std::size_t(size) * size);
     parallel_for(size, [&](int y) {
-        const double roughness = (y + 0.5) / size;
+        const double roughness = std::max(place(y), least_roughness);
         for (int x = 0; x < size; ++x) {
-            const double root = (x + 0.5) / size;
+            const double root = std::max(place(x), least_root);
             exact[std::size_t(y) * size + x] = albedo(root * root, roughness * roughness, lattice);
         }
     });
@@ -101,6 +101,17 @@ BrdfTable bake_brdf_table(int size, const ParallelFor& parallel_for) {
         table.ab.emplace_back(std::min(float(ab.x), 1.0f - bias), bias);
     }
     return table;
+}
+
+}  // namespace
+
+BrdfTable bake_brdf_table(int size, const ParallelFor& parallel_for) {
+    return bake_table(size, Lattice(1597, 987), parallel_for, [size](int i) { return (i + 0.5) / size; });
+}
+
+BrdfTable bake_end_to_end_brdf_table(int size, const ParallelFor& parallel_for) {
+    return bake_table(size, Lattice(4181, 2584), parallel_for,
+                      [size](int i) { return double(i) / (size - 1); });
 }
 
 }  // namespace patina

@@ -58,14 +58,14 @@ LightSums sum_lights(const FitLight& light, const Pixel& pixel, double alpha) {
     for (int e = 0; e < light.count; ++e) {
         for (const LightSample& sample : light.lights[e].samples) {
             const glm::dvec3 L = local(sample.direction);
-            const Reflection r = reflection(pixel.NoV, L, alpha2, alpha2);
+            const Reflection r = reflection(pixel.NoV, L, alpha2);
             sums.truth.plain[e] += float(r.plain * sample.irradiance);
             sums.truth.fresnel[e] += float(r.fresnel * sample.irradiance);
             sums.irradiance[e] += float(std::max(L.z, 0.0) * sample.irradiance / std::numbers::pi);
         }
         for (const ExtractedLight& source : light.lights[e].lights) {
             const double widening = 0.125 * source.angular_radius_rad * source.angular_radius_rad;
-            const Reflection r = reflection(pixel.NoV, local(source.direction), alpha2 + widening, alpha2);
+            const Reflection r = reflection(pixel.NoV, local(source.direction), alpha2, widening);
             const float E = brdf::luminance(source.irradiance);
             sums.shaded.plain[e] += float(r.plain * E);
             sums.shaded.fresnel[e] += float(r.fresnel * E);

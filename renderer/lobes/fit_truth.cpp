@@ -1,5 +1,7 @@
 #include "renderer/lobes/fit_truth.h"
 
+#include "renderer/brdf.h"
+
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -86,12 +88,15 @@ LobeSums sum_lobe(const Lobe& lobe, const FitLight& light, const Frame& frame) {
     return sums;
 }
 
-Reflection reflection(double NoV, glm::dvec3 L, double alpha2_distribution, double alpha2) {
+Reflection reflection(double NoV, glm::dvec3 L, double alpha2, double spread) {
     if (L.z <= 0.0) return {};
     const glm::dvec3 V(std::sqrt(1.0 - NoV * NoV), 0.0, NoV);
     const glm::dvec3 H = glm::normalize(V + L);
-    const double spread = H.x * H.x + H.y * H.y + alpha2_distribution * H.z * H.z;
-    const double D = alpha2_distribution / (kPi * spread * spread);
+    const double sin2 = H.x * H.x + H.y * H.y;
+    const double width = sin2 + alpha2 * H.z * H.z;
+    const double D = spread > 0.0
+                         ? double(brdf::distribution_spread(float(sin2), float(alpha2), float(spread)))
+                         : alpha2 / (kPi * width * width);
     const double v = L.z * std::sqrt(NoV * NoV * (1.0 - alpha2) + alpha2);
     const double l = NoV * std::sqrt(L.z * L.z * (1.0 - alpha2) + alpha2);
     const double plain = D * 0.5 / (v + l) * L.z;

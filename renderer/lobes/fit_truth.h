@@ -42,11 +42,12 @@ struct LobeSums {
 };
 LobeSums sum_lobe(const Lobe& lobe, const FitLight& light, const Frame& frame);
 
-/// D·Vis·NoL and Fc·D·Vis·NoL towards L (in the point's frame); alpha of the distribution may be wider.
+/// D·Vis·NoL and Fc·D·Vis·NoL towards L (in the point's frame); spread as brdf.glsl's
+/// distribution_spread has it, 0: none.
 struct Reflection {
     double plain = 0.0;
     double fresnel = 0.0;
 };
-Reflection reflection(double NoV, glm::dvec3 L, double alpha2_distribution, double alpha2);
+Reflection reflection(double NoV, glm::dvec3 L, double alpha2, double spread = 0.0);
 
 }  // namespace patina::lobes

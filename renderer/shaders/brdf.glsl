@@ -21,7 +21,8 @@
 //     Lo = E_F · P + (FmsEms + kD) · E/π                                                           (2)
 //
 // P is what the modes differ in. split-sum (Karis 2013): the level of that roughness along R. fitted: below. course: the
-// lecture's formulas, its own weights too. A light of direction L and irradiance E is (1) with the disc's width added to α².
+// lecture's formulas, its own weights too. A light of direction L and irradiance E is (1) seen through the disc's spread
+// (distribution_spread).
 //
 // Fitted lobes. A prefiltered level of roughness ρ holds the environment under the lobe of N = V. The true lobe of (NoV, r)
 // lies elsewhere, towards N, and is narrower across the plane of incidence; far from its middle it has tails. So
@@ -101,11 +102,26 @@ PATINA_FN ReflectionWeights course_weights(vec3 albedo, float metallic, float ro
     return w;
 }
 
-// The first term of (1) for a small light. Its width widens the distribution (alpha2.x) and leaves the shadowing (alpha2.y)
-// as it is. cosines: NoV, NoL, VoH > 0; sin2 = |N × H|².
-PATINA_FN vec3 light_specular(vec3 F0, float sin2, vec3 cosines, vec2 alpha2) {
-    return fresnel_schlick(F0, cosines.z) * (distribution_ggx(sin2, alpha2.x) *
-                                             visibility_smith(cosines.x, cosines.y, alpha2.y) * cosines.y);
+// What is left of GGX where the half vectors of a small light are spread: by its own width, by the normals within the pixel.
+// In slopes, t = tan²θ_h, the distribution is α²/π(α² + t)² convolved with a blob of mean-square radius `spread`. A GGX with
+// α² + spread in its place has tails α²+spread/πt² where convolving leaves those of α²: a dark surface around the highlight of a
+// lamp would be many times too bright. So what has the right tails and the right height is taken,
+//     c · GGX(w)  +  (1 − c) · exp(−t/w)/πw,    c = α²/w:   1/πw at t = 0, α²/πt² far out, and 1 in all.
+// The height of GGX convolved with exp(−t/s)/πs is [1 − x eˣ E₁(x)]/πs, x = α²/s; w = α² + s + α²s/(α² + s) has that to 6 %
+// for all x, and exactly towards both ends.
+PATINA_FN float distribution_spread(float sin2, float alpha2, float spread) {
+    float cos2 = max(1.0f - sin2, 1e-6f);
+    float wide2 = alpha2 + spread + alpha2 * spread / max(alpha2 + spread, 1e-20f);
+    float share = alpha2 / wide2;
+    float compact = exp(-sin2 / (cos2 * wide2)) / (kPi * wide2 * square(cos2));
+    return mix(compact, distribution_ggx(sin2, wide2), share);
+}
+
+// The first term of (1) for a small light that spreads the half vectors (distribution_spread) and leaves the shadowing as it is.
+// cosines: NoV, NoL, VoH > 0; sin2 = |N × H|²; widths: alpha² and the spread.
+PATINA_FN vec3 light_specular(vec3 F0, float sin2, vec3 cosines, vec2 widths) {
+    return fresnel_schlick(F0, cosines.z) * (distribution_spread(sin2, widths.x, widths.y) *
+                                             visibility_smith(cosines.x, cosines.y, widths.x) * cosines.y);
 }
 
 // φ of equation (4), 0…1 from F0 = 1 to 0.04 and darker. Both shares are fractions with the factor B, which is cancelled:
@@ -119,6 +135,12 @@ PATINA_FN float fresnel_share(float f0, vec2 ab) {
 
 // One direction stands for all channels of F0.
 PATINA_FN float luminance(vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+
+// Where the table of A and B is read. Its outermost texels lie on the ends of both axes: nothing is extrapolated.
+const float kAlbedoTableSize = 384.0f;
+PATINA_FN vec2 albedo_coordinates(float NoV, float roughness) {
+    return (vec2(sqrt(NoV), roughness) * (kAlbedoTableSize - 1.0f) + 0.5f) / kAlbedoTableSize;
+}
 
 // Where the table of fitted lobes is read: √NoV, and roughness from the sharpest fitted one on, as fractions of its sides.
 const float kSharpestFitted = 0.1f;
@@ -162,11 +184,12 @@ PATINA_FN float core_tangent2(float q, float alpha2, float alpha1_2) {
 }
 
 // The wider lobe of a fitted one's split: below this multiple of the sharpest level's roughness, where no stored level is
-// as narrow as the true lobe across the plane of incidence, the tails are those of a lobe as far above it. The fit is good
-// there, the core holds most of the light, and the two meet where sampling ends.
+// as narrow as the true lobe across the plane of incidence, the tails are those of a lobe about as far above it. The fit is
+// good there, the core holds most of the light, and the two meet where sampling ends.
 const float kCoreReach = 1.3f;
 PATINA_FN float tail_roughness(float roughness, float sharpest) {
-    return min(max(2.0f * kCoreReach * sharpest - roughness, roughness), 1.0f);
+    float reach = kCoreReach * sharpest;
+    return min(max(reach + 0.8f * (reach - roughness), roughness), 1.0f);
 }
 
 // Density per solid angle of the reflected direction (N = V, so dω_l = 4 VoH dω_h and D·NoH/(4 VoH) = D/4) of the core,

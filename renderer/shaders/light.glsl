@@ -63,44 +63,61 @@ vec3 prefiltered_light(vec3 d, float log2_roughness) {
 }
 
 #ifdef HAS_SHARP
-// A golden-angle spiral of equal shares of the core: q = u/(1 − u) at u = (i + ½)/n, and the azimuth.
-const int kCoreSamples = 24;
+// Points that share the core out: a golden-angle spiral over its half vectors, a plastic-number lattice over the pixel.
+const int kCoreSamples = 32;
 const vec2 kGoldenTurn = vec2(-0.7373688, 0.6754903);   // cos and sin of the golden angle
+const vec2 kPixelStep = vec2(0.7548777, 0.5698403);
+const vec2 kPixelStart = vec2(0.57925, 0.106);           // so that the points' mean, by their mass, is the pixel's middle
 
-// The compact core that a sharp lobe (alphas.x) has beyond the tails of a wider one (alphas.y, core_tangent2): half vectors
-// sampled around N by its distribution, their reflections weighted by what the reflection model has beside D, so that the
-// lobe is as narrow across the plane of incidence as the true one. Each sample is the panorama averaged over the solid
-// angle it stands for (Krivánek & Colbert 2008) and the pixel's. N = V = R gives the lobe of the prefiltered levels.
+struct Core {
+    vec3 N;
+    vec3 V;
+    vec3 across;    // of N over the pixel
+    vec3 up;
+    float alpha;    // of the sharp lobe
+    float alpha1;   // of the wider one whose tails it has
+    float f0;
+    vec3 lights;    // how much of the extracted lights is to be seen
+};
+
+// The compact core that a sharp lobe has beyond the tails of a wider one (core_tangent2): half vectors sampled by its
+// distribution around the normals that the pixel holds, their reflections weighted by what the reflection model has beside D,
+// so that the lobe is as narrow across the plane of incidence as the true one. Each sample is the panorama averaged over the
+// solid angle it stands for (Krivánek & Colbert 2008), of the core and of the pixel. (1 − u)² of the core's mass lie beyond
+// point u, so that the outer points stand for little each: what lies around a lamp is dark, and a patch that reached from
+// there into the lamp would light it. N = V = R, half of R's change over the pixel and any Fresnel term give the lobe of the prefiltered levels.
 // Without any lobe that sharp among the pixels shaded together the loop is not entered; software renderers execute both
 // sides of an `if`, so a loop of no turns is what spares them the work.
-vec3 core_light(vec3 N, vec3 V, vec2 alphas, float f0, vec4 lights_and_pixel) {
-    float alpha = alphas.x;
-    // Below roughness 0.01 the lobe is narrower than any panorama's texel: its middle says it all.
-    int count = alpha < 1e-4 ? 1 : alpha < alphas.y ? kCoreSamples : 0;
-    float middle = count == 1 ? 0.0 : 0.5;
-    float alpha2 = max(alpha * alpha, 1e-14);
-    float alpha1_2 = square(alphas.y);
+vec3 core_light(Core c) {
+    int count = c.alpha < c.alpha1 ? kCoreSamples : 0;
+    float alpha2 = max(c.alpha * c.alpha, 1e-14);
+    float alpha1_2 = square(c.alpha1);
     // Azimuths count from the panorama's own east, so that the pattern turns smoothly everywhere but at its poles.
-    float r = length(N.xz);
-    vec3 east = r > 1e-6 ? vec3(-N.z, 0.0, N.x) / r : vec3(1.0, 0.0, 0.0);
-    vec3 north = cross(N, east);
-    float NoV = max(dot(N, V), 1e-4);
+    float r = length(c.N.xz);
+    vec3 east = r > 1e-6 ? vec3(-c.N.z, 0.0, c.N.x) / r : vec3(1.0, 0.0, 0.0);
+    vec3 north = cross(c.N, east);
+    float pixel = length(cross(c.across, c.up));
+    float NoV = max(dot(c.N, c.V), 1e-4);
     vec4 sum = vec4(0.0);
     vec2 azimuth = vec2(1.0, 0.0);
+    vec2 place = kPixelStart;
     for (int i = 0; i < count; ++i) {
-        float u = (float(i) + middle) / float(count);
-        float t = core_tangent2(u / (1.0 - u), alpha2, alpha1_2);   // tan² of the half vector's angle
+        float left = 1.0 - (float(i) + 0.5) / float(count);
+        float mass = 2.0 * left / float(count);
+        float t = core_tangent2(1.0 / square(left) - 1.0, alpha2, alpha1_2);   // tan² of the half vector's angle
         float NoH = inversesqrt(1.0 + t);
-        vec3 H = NoH * (N + sqrt(t) * (azimuth.x * east + azimuth.y * north));
-        float VoH = max(dot(V, H), 1e-4);
-        vec3 L = 2.0 * VoH * H - V;
-        float NoL = max(dot(N, L), 0.0);
-        float F = f0 + (1.0 - f0) * pow5(1.0 - min(VoH, 1.0));
-        float weight = F * visibility_smith(NoV, NoL, alpha2) * NoL * VoH / NoH;
-        float share = VoH / (NoH * float(count) * max(core_density(t, alpha2, alpha1_2), 1e-12));
-        sum += weight * vec4(panorama_light(L, share + lights_and_pixel.w, lights_and_pixel.rgb), 1.0);
+        vec2 within = place - 0.5;
+        vec3 H = normalize(c.N + within.x * c.across + within.y * c.up + sqrt(t) * (azimuth.x * east + azimuth.y * north));
+        float VoH = max(dot(c.V, H), 1e-4);
+        vec3 L = 2.0 * VoH * H - c.V;
+        float NoL = max(dot(c.N, L), 0.0);
+        float F = c.f0 + (1.0 - c.f0) * pow5(1.0 - min(VoH, 1.0));
+        float weight = mass * F * visibility_smith(NoV, NoL, alpha2) * NoL * VoH / NoH;
+        float own = mass / (NoH * max(core_density(t, alpha2, alpha1_2), 1e-12)) + 4.0 * pixel / float(count);
+        sum += weight * vec4(panorama_light(L, 0.5 * VoH * own, c.lights), 1.0);   // bilinear look-ups widen it to the whole
         azimuth = vec2(azimuth.x * kGoldenTurn.x - azimuth.y * kGoldenTurn.y,
                        azimuth.x * kGoldenTurn.y + azimuth.y * kGoldenTurn.x);
+        place = fract(place + kPixelStep);
     }
     return sum.rgb / max(sum.a, 1e-12);
 }

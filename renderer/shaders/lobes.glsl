@@ -14,7 +14,8 @@ struct LobePoint {
     vec2 ab;            // A and B
     float f0;           // luminance of F0
     vec3 irradiance;    // E/π
-    float pixel;        // solid angle that R covers in this pixel
+    vec3 across;        // how N changes over the pixel
+    vec3 up;
 };
 
 #ifdef HAS_FITTED
@@ -71,13 +72,11 @@ vec3 lobe_light(LobePoint p) {
 #endif
     vec3 light = wide_lobe_light(p);
 #ifdef HAS_SHARP
-    vec4 lights_and_pixel = vec4((1.0 - analytic_share(alpha)) * light_color(p.R), p.pixel);
-#ifdef HAS_FITTED
-    vec3 core = core_light(p.N, p.V, vec2(alpha, alpha1), p.f0, lights_and_pixel);
-#else
-    vec3 core = core_light(p.R, p.R, vec2(alpha, alpha1), p.f0, lights_and_pixel);
+    Core core = Core(p.N, p.V, p.across, p.up, alpha, alpha1, p.f0, (1.0 - analytic_share(alpha)) * light_color(p.R));
+#ifndef HAS_FITTED
+    core.N = core.V = p.R;
 #endif
-    light = tails * light + (1.0 - tails) * core;
+    light = tails * light + (1.0 - tails) * core_light(core);
 #endif
     return light;
 }

@@ -61,3 +61,22 @@ Surface surface_of(MapTexels m) {
     s.ao = unit_range(s.ao);
     return s;
 }
+
+// How the normal changes from a pixel to its neighbours. At a silhouette, where it turns without end, those that it is
+// measured against lie beside the surface.
+struct PixelNormals {
+    vec3 across;
+    vec3 up;
+};
+
+// What they add to alpha² for a small light, whose half vectors stand still while the normal turns. A pixel's mean is a box one
+// pixel wide, whose variance is 1/12 a side. Slopes of variance σ² along an axis have α² = 2σ² (Beckmann's α is GGX's in the
+// middle), and the two axes of the tangent plane have half of the whole variance (|∂x N|² + |∂y N|²)/12 each.
+float pixel_spread(PixelNormals n) { return (dot(n.across, n.across) + dot(n.up, n.up)) / 12.0; }
+
+// Where the surface lies under the picture: what is shaded there beside the material's numbers.
+struct Geometry {
+    vec3 N;                 // as shaded
+    vec3 V;
+    PixelNormals around;    // of N
+};

@@ -25,11 +25,11 @@ struct Reflected {
 // The specular part of one light that widens the lobe by `spread`.
 vec3 light_lobe(vec3 F0, float alpha, float spread, float sin2, vec3 cosines) {
     float alpha2 = square(alpha);
-    vec3 whole = light_specular(F0, sin2, cosines, vec2(alpha2 + spread, alpha2));
+    vec3 whole = light_specular(F0, sin2, cosines, vec2(alpha2, spread));
 #ifdef HAS_SHARP
     // What is not seen as a light is seen in the panorama (lobe_light), but for the tails.
     float tails2 = square(square(wider_roughness(sqrt(alpha))));
-    vec3 tails = light_specular(F0, sin2, cosines, vec2(tails2 + spread, alpha2));
+    vec3 tails = light_specular(F0, sin2, cosines, vec2(tails2, spread));
     float share = min(alpha2 / tails2, 1.0);
     whole = mix(share * tails, whole, analytic_share(alpha));
 #endif
@@ -43,7 +43,7 @@ void add_lights(inout Reflected sum, Surface s, ReflectionWeights w, Geometry g)
     vec3 V = g.V;
     vec3 F0 = base_reflectance(s.albedo, s.metallic);
     float NoV = max(dot(N, V), 1e-4);
-    float spread = g.turned;
+    float spread = pixel_spread(g.around);
     for (int i = 0; i < PATINA_MAX_LIGHTS; ++i) {
         if (float(i) >= counts.x) break;
         vec3 L = light_direction[i].xyz;
@@ -92,10 +92,19 @@ Reflected reflected_light(Surface s, Geometry g) {
     p.R = environment_direction(R);
     p.NoV = NoV;
     p.roughness = s.roughness;
-    p.ab = texture(brdf_table, vec2(sqrt(NoV), s.roughness)).rg;
+    p.ab = texture(brdf_table, albedo_coordinates(NoV, s.roughness)).rg;
     p.f0 = luminance(base_reflectance(s.albedo, s.metallic));
     p.irradiance = irradiance_light(p.N);
-    p.pixel = g.mirrored;
+    p.across = p.up = vec3(0.0);
+#ifdef HAS_SHARP
+#if defined(HAS_FITTED) || defined(HAS_STORED)
+    PixelNormals pixel = g.around;
+#else
+    PixelNormals pixel = pixel_normals(0.5 * R);
+#endif
+    p.across = environment_direction(pixel.across);
+    p.up = environment_direction(pixel.up);
+#endif
 #ifdef HAS_COURSE
     ReflectionWeights w = course_weights(s.albedo, s.metallic, s.roughness, NoV, p.ab);
 #else

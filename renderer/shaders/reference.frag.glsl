@@ -11,7 +11,6 @@
 #include "surface.glsl"
 
 uniform sampler2D brdf_table;         // A and B over (√NoV, roughness)
-uniform sampler2D reference_points;   // rows: direction and density; radiance; cos φ, sin φ, u, choice of lobe
 uniform vec2 reference_slice;         // how many points; 1/∫ mean radiance dω, exposed
 
 layout(location = 0) out vec4 picture_color;
@@ -36,7 +35,7 @@ Sampled make_sampled(Surface s, vec3 V) {
     p.V = V;
     p.alpha = max(square(s.roughness), 1e-4);
     p.F0 = base_reflectance(s.albedo, s.metallic);
-    vec2 ab = texture(brdf_table, vec2(sqrt(V.z), s.roughness)).rg;
+    vec2 ab = texture(brdf_table, albedo_coordinates(V.z, s.roughness)).rg;
     ReflectionWeights w = split_sum_weights(s.albedo, s.metallic, ab);
     p.body = w.multiple + w.diffuse;
     float single = mean_channel(w.single);
@@ -90,9 +89,9 @@ vec3 panorama_texel(vec3 d) {
 }
 
 vec3 estimate(Sampled p, mat3 frame, int i) {
-    vec4 light = texelFetch(reference_points, ivec2(i, 0), 0);
-    vec3 radiance = texelFetch(reference_points, ivec2(i, 1), 0).rgb * camera_position.w;
-    vec4 u = texelFetch(reference_points, ivec2(i, 2), 0);
+    vec4 light = point_rows[3 * i];
+    vec3 radiance = point_rows[3 * i + 1].rgb * camera_position.w;
+    vec4 u = point_rows[3 * i + 2];
     vec3 sum = weighed(p, light.xyz * frame, light.w, radiance, true);
     float r = sqrt(u.z);
     vec3 L = u.w < p.specular ? specular_direction(p, u.xy, u.z) : vec3(r * u.xy, sqrt(1.0 - u.z));

@@ -51,9 +51,9 @@ vec3 specular_part(Surface s, vec3 N, vec3 V, float NoV, vec2 ab) {
         if (NoL <= 0.0) continue;
         vec3 H = normalize(V + L);
         vec3 side = cross(N, H);
-        float wide = max(alpha * alpha, square(level_layout.w)) + light_direction[i].w;
+        vec2 widths = vec2(max(alpha * alpha, square(level_layout.w)), light_direction[i].w);
         sum += light_irradiance[i].rgb *
-               light_specular(F0, dot(side, side), vec3(NoV, NoL, max(dot(V, H), 0.0)), vec2(wide, square(alpha)));
+               light_specular(F0, dot(side, side), vec3(NoV, NoL, max(dot(V, H), 0.0)), widths);
     }
     return sum;
 }
@@ -65,7 +65,7 @@ void main() {
     Surface s = surface_of(read_maps(st));
     vec3 N = shading_normal(V, st);
     float NoV = max(dot(N, V), 1e-4);
-    vec2 ab = texture(brdf_table, vec2(sqrt(NoV), s.roughness)).rg;
+    vec2 ab = texture(brdf_table, albedo_coordinates(NoV, s.roughness)).rg;
     ReflectionWeights w = split_sum_weights(s.albedo, s.metallic, ab);
     vec3 irradiance = textureLod(irradiance_map, environment_direction(N), 0.0).rgb * env_scale.z;
     for (int i = 0; i < PATINA_MAX_LIGHTS; ++i) {

@@ -1,23 +1,18 @@
 // A surface that was rasterised before (surfaces.frag.glsl): each texel is one fragment.
 
-uniform sampler2D stored_normals;    // N; how far the mirrored direction turns over the pixel
-uniform sampler2D stored_views;      // V; how far the normal turns
+uniform sampler2D stored_normals;    // N; how it changes over the pixel: across, up,
+uniform sampler2D stored_views;      // V; in the fourth of each
+uniform sampler2D stored_turns;      // and here
 uniform sampler2D stored_colors;     // albedo map; roughness map
 uniform sampler2D stored_scalars;    // metallic and ao maps; spread of the normals that a normal map averages
 uniform sampler2D stored_emissions;  // emission map
-
-struct Geometry {
-    vec3 N;
-    vec3 V;
-    float mirrored;
-    float turned;
-};
 
 Geometry stored_geometry() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec4 normal = texelFetch(stored_normals, at, 0);
     vec4 view = texelFetch(stored_views, at, 0);
-    return Geometry(normal.xyz, view.xyz, normal.w, view.w);
+    vec4 turn = texelFetch(stored_turns, at, 0);
+    return Geometry(normal.xyz, view.xyz, PixelNormals(vec3(normal.w, view.w, turn.x), turn.yzw));
 }
 
 // Scalars were stored as their channel holds them; a row of the material has one entry, ±value, or none.

@@ -25,14 +25,6 @@ in vec4 world_tangent;
 in vec2 mesh_uv;
 in vec2 map_uv;
 
-// Where the surface lies under the picture: what is shaded there beside the material's numbers.
-struct Geometry {
-    vec3 N;         // as shaded
-    vec3 V;
-    float mirrored; // half the squares of how far the mirrored direction turns from pixel to pixel
-    float turned;   // the same of the normal
-};
-
 MapTexels read_maps(vec2 st) {
     MapTexels m = MapTexels(vec3(1.0), 0.0, 0.0, 0.0, 0.0, vec3(1.0));
 #ifdef HAS_NORMAL_MAP
@@ -96,18 +88,16 @@ vec3 shading_normal(vec3 V, vec2 st) {
     return n;
 }
 
-float half_square_of_turn(vec3 direction) {
-    vec3 across = dFdx(direction);
-    vec3 up = dFdy(direction);
-    return 0.5 * (dot(across, across) + dot(up, up));
+PixelNormals pixel_normals(vec3 N) {
+    vec3 across = dFdx(N);
+    vec3 up = dFdy(N);
+    float largest2 = max(dot(across, across), dot(up, up));
+    float scale = min(1.0, 0.5 * inversesqrt(max(largest2, 1e-20)));
+    return PixelNormals(scale * across, scale * up);
 }
 
 Geometry read_geometry(vec2 st) {
-    Geometry g;
-    g.V = normalize(camera_position.xyz - world_position);
-    g.N = shading_normal(g.V, st);
-    // At a silhouette, where both turn without end, the neighbours they are measured against lie beside the surface.
-    g.mirrored = min(half_square_of_turn(reflect(-g.V, g.N)), 0.05);
-    g.turned = min(half_square_of_turn(g.N), 0.18);
-    return g;
+    vec3 V = normalize(camera_position.xyz - world_position);
+    vec3 N = shading_normal(V, st);
+    return Geometry(N, V, pixel_normals(N));
 }

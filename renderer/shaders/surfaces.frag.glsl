@@ -7,11 +7,12 @@
 layout(location = 0) out float stored_fragment;   // of which triangle; 0: nothing
 layout(location = 1) out vec4 stored_normal;
 layout(location = 2) out vec4 stored_view;
+layout(location = 3) out vec4 stored_turn;
 #ifdef HAS_STORED_MAPS
-layout(location = 3) out vec4 stored_color;
-layout(location = 4) out vec4 stored_scalar;
+layout(location = 4) out vec4 stored_color;
+layout(location = 5) out vec4 stored_scalar;
 #ifdef HAS_EMISSION_MAP
-layout(location = 5) out vec4 stored_emission;
+layout(location = 6) out vec4 stored_emission;
 #endif
 #endif
 
@@ -19,8 +20,9 @@ void main() {
     vec2 st = vec2(map_uv.x, 1.0 - map_uv.y);   // maps are stored top row first
     Geometry g = read_geometry(st);
     stored_fragment = float(gl_PrimitiveID + 1);
-    stored_normal = vec4(g.N, g.mirrored);
-    stored_view = vec4(g.V, g.turned);
+    stored_normal = vec4(g.N, g.around.across.x);
+    stored_view = vec4(g.V, g.around.across.y);
+    stored_turn = vec4(g.around.across.z, g.around.up);
 #ifdef HAS_STORED_MAPS
     MapTexels m = read_maps(st);
     stored_color = vec4(m.albedo, m.roughness);

@@ -20,17 +20,19 @@ void main() {
 uniform usampler2D fragment_places;   // x, y and sample
 uniform Samples stored_normals;
 uniform Samples stored_views;
+uniform Samples stored_turns;
 layout(location = 0) out vec4 sorted_normal;
 layout(location = 1) out vec4 sorted_view;
+layout(location = 2) out vec4 sorted_turn;
 #ifdef HAS_STORED_MAPS
 uniform Samples stored_colors;
 uniform Samples stored_scalars;
-layout(location = 2) out vec4 sorted_color;
-layout(location = 3) out vec4 sorted_scalar;
+layout(location = 3) out vec4 sorted_color;
+layout(location = 4) out vec4 sorted_scalar;
 #endif
 #ifdef HAS_EMISSION_MAP
 uniform Samples stored_emissions;
-layout(location = 4) out vec4 sorted_emission;
+layout(location = 5) out vec4 sorted_emission;
 #endif
 
 void main() {
@@ -39,6 +41,7 @@ void main() {
     int i = int(place.z);
     sorted_normal = texelFetch(stored_normals, at, i);
     sorted_view = texelFetch(stored_views, at, i);
+    sorted_turn = texelFetch(stored_turns, at, i);
 #ifdef HAS_STORED_MAPS
     sorted_color = texelFetch(stored_colors, at, i);
     sorted_scalar = texelFetch(stored_scalars, at, i);

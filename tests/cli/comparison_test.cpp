@@ -164,5 +164,19 @@ TEST(UpToDate, the_recipe_for_many_pictures_makes_each_once) {
     EXPECT_EQ(kept, 4u) << said;
 }
 
+TEST(ReportCommand, says_on_request_how_far_the_shading_is_from_the_reference) {
+    const Workspace work;
+    work.write("one.json", R"({"rows": [{"preset": "gold"}], "columns": [{"environment": "studio"}]})");
+    const Outcome outcome =
+        work.run({"report", "one.json", "-o", "r.html", "--size", "48", "--no-hints", "--reference", "16"});
+    ASSERT_EQ(outcome.exit_status, 0) << outcome.errors;
+    const std::string page = work.read("r.html");
+    const std::size_t at = page.find("Against the reference");
+    ASSERT_NE(at, std::string::npos);
+    const std::string section = page.substr(at, 1500);
+    EXPECT_NE(section.find("16 points a pixel"), std::string::npos);
+    EXPECT_EQ(section.find(">0.00 %<"), std::string::npos) << "nothing is known to the last digit";
+}
+
 }  // namespace
 }  // namespace patina

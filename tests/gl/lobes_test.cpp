@@ -1,6 +1,8 @@
 // Fitted lobes and extracted lights as drawn, against the same formulas in C++.
 #include "renderer/brdf.h"
+#include "renderer/core/metrics.h"
 #include "renderer/lobes/lobe_table.h"
+#include "renderer/reference.h"
 #include "tests/gl/scene.h"
 
 #include <gtest/gtest.h>
@@ -182,6 +184,30 @@ TEST(ExtractedLights, are_seen_in_the_background_as_they_are_in_the_picture) {
     scene.environment = sun_light().upload(false);
     const glm::vec3 left_in = center(radiance_of(scene, glm::ivec2(65)));
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(blurred[c] / left_in[c], 1.0f, 0.02f);
+}
+
+/// Relative rms error of a small sphere in sun_light against the integral over its pixels.
+double small_sphere_error(float roughness, int side_px) {
+    Scene scene = make_scene(sun_light().upload(true), sphere());
+    scene.view.background = Background::Plain;
+    scene.material.metallic.value = 1.0f;
+    scene.material.albedo.value = glm::vec3(1.0f);
+    scene.material.roughness.value = roughness;
+    Reference reference(renderer(), glm::ivec2(side_px), {.max_samples = 1024, .tolerance = 0.0});
+    reference.restart(scene);
+    reference.finish();
+    const TargetHandle target = renderer().make_target(glm::ivec2(side_px), 1, TargetPrecision::Full);
+    reference.write(*target);
+    return picture_error(radiance_of(scene, glm::ivec2(side_px)), renderer().read_radiance(*target),
+                         reference.inner_pixels())
+        .rms;
+}
+
+TEST(ExtractedLights, are_as_wide_as_the_pixels_of_a_small_sphere_make_them) {
+    // Around the sun's highlight lies the dark tail of a narrow lobe: too wide a lobe errs by a multiple of
+    // it.
+    for (const float roughness : {0.06f, 0.1f, 0.2f})
+        EXPECT_LT(small_sphere_error(roughness, 64), 0.06) << roughness;
 }
 
 TEST(Occlusion, follows_its_formulas_and_leaves_open_surfaces_alone) {

@@ -47,14 +47,18 @@ Scene truth_scene() {
 FourPoints corners_in_photo() { return {glm::dvec2{61, 22}, {342, 40}, {360, 281}, {38, 262}}; }
 FourPoints view_corners() { return {glm::dvec2{0, 0}, {kView.x, 0}, {kView.x, kView.y}, {0, kView.y}}; }
 
-/// What the camera saw: the render in perspective, darker and tinted, on a black table.
+constexpr glm::vec2 kCardAt{14.0f / 400.0f, 12.0f / 300.0f};  ///< middle of the card, which is 24 × 18
+
+/// What the camera saw: the render in perspective, darker and tinted, on a black table with a grey card.
 Image synthetic_photo(const Image& render) {
     Image photo = warped(render, *homography(corners_in_photo(), view_corners()), kPhoto);
     Image result = make_image(kPhoto.x, kPhoto.y, 3, PixelType::F32);
     for (int y = 0; y < kPhoto.y; ++y)
         for (int x = 0; x < kPhoto.x; ++x)
             for (int c = 0; c < 3; ++c)
-                set_texel(result, x, y, c, texel(photo, x, y, c) * kTint[c] * std::exp2(kGainEv));
+                set_texel(result, x, y, c,
+                          (x >= 2 && x < 26 && y >= 3 && y < 21 ? kGreyCard : texel(photo, x, y, c)) *
+                              kTint[c] * std::exp2(kGainEv));
     return result;
 }
 
@@ -77,9 +81,7 @@ Found found() {
     static const Found result = [] {
         const Image photo = synthetic_photo(radiance()(truth_scene()));
         Found f{.photo = fitted()};
-        // The grey card: a photo of a card that reflects 18 % of the room's light has the same gain and tint.
-        const glm::vec3 card(0.18f);
-        const auto balance = balance_to(card * kTint * std::exp2(kGainEv), card);
+        const auto balance = balance_to(*card_patch(photo, kCardAt), glm::vec3(kGreyCard));
         f.photo.exposure_ev = balance->exposure_ev;
         f.photo.white_balance = balance->white_balance;
         f.in_view = photo_in_view(f.photo, photo, kView);

@@ -176,7 +176,7 @@ TEST(Shading, an_extracted_light_adds_what_its_formula_says) {
     const auto w = brdf::split_sum_weights(scene.material.albedo.value, 0.0f, ab);
     const glm::vec3 F0(0.04f);
     const glm::vec3 f = brdf::light_specular(F0, glm::dot(side, side), glm::vec3(1.0f, NoL, glm::dot(V, H)),
-                                             glm::vec2(0.0625f));
+                                             glm::vec2(0.0625f, 0.0f));
     const glm::vec3 expected = light.irradiance * (f + (w.multiple + w.diffuse) * NoL / brdf::kPi);
     const glm::vec3 seen = straight_on(scene);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c] / expected[c], 1.0f, 3e-3f);

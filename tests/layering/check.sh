@@ -26,11 +26,12 @@ sources() {
 
 # Directions: app -> ui -> {materials, renderer/core}; app -> renderer/gl -> renderer/{core, ibl}; renderer -> materials.
 forbid 'materials is a leaf' '#include "(app|renderer|ui)/' $(sources materials)
-forbid 'renderer/core knows only itself' '#include "(app|ui|materials|renderer/(ibl|gl|renderer|features))' $(sources renderer/core)
+forbid 'renderer/core knows only itself' '#include "(app|ui|materials|renderer/(ibl|gl|maps|renderer|features))' $(sources renderer/core)
 forbid 'renderer/ibl knows only renderer/core' '#include "(app|ui|materials|renderer/(gl|renderer|features))' $(sources renderer/ibl)
 forbid 'renderer/gl knows only renderer/core and renderer/ibl' '#include "(app|ui|materials|renderer/(renderer|features))' $(sources renderer/gl)
+forbid 'renderer/maps knows only renderer/core' '#include "(app|ui|materials|renderer/(ibl|gl|lobes|renderer|features))' $(sources renderer/maps)
 forbid 'the renderer knows neither app nor ui' '#include "(app|ui)/' $(sources renderer)
-forbid 'ui knows only materials and renderer/core' '#include "(app|renderer/(ibl|gl|renderer|features))' $(sources ui)
+forbid 'ui knows only materials and renderer/core' '#include "(app|renderer/(ibl|gl|maps|renderer|features))' $(sources ui)
 
 # Packages behind one door each.
 forbid 'only image_module may name OpenImageIO' '#include <OpenImageIO' \

@@ -1,4 +1,5 @@
-// The same preset, the same picture: whatever the number of threads and the instruction set.
+// The same preset, the same picture: whatever the number of threads, the instruction set and the
+// build.
 #include "app/headless.h"
 #include "app/registry.h"
 #include "app/scene_loader.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <hwy/targets.h>
 #include <sched.h>
 #include <vector>
@@ -81,6 +83,31 @@ void expect_the_same_on_every_instruction_set(std::size_t every) {
 
 TEST(Everywhere, simd_or_not_a_few_presets_look_the_same) { expect_the_same_on_every_instruction_set(12); }
 TEST(SlowEverywhere, simd_or_not_every_preset_looks_the_same) { expect_the_same_on_every_instruction_set(1); }
+
+/// Two builds of the same tree, one perhaps with sanitizers, bake and draw the presets each for itself.
+void expect_the_same_from_another_build(std::size_t every) {
+    const char* other = std::getenv("PATINA_OTHER_PROGRAM");
+    if (!other) GTEST_SKIP() << "PATINA_OTHER_PROGRAM names no other build (`./patina test asan` does)";
+    std::vector<Image> pictures;
+    for (const std::string program : {PATINA_PROGRAM, other}) {
+        const Folder folder;
+        std::vector<std::string> words{program, "compare"};
+        const std::vector<std::filesystem::path> presets = shipped_presets();
+        for (std::size_t i = 0; i < presets.size(); i += every) words.push_back(presets[i].string());
+        words.insert(words.end(), {"--env", "studio", "-o", "a.png", "--size", "64x64"});
+        const Ended ended = run_process(words, {.environment = {{"PATINA_CACHE_DIR", folder.path.string()},
+                                                                {"ASAN_OPTIONS", "detect_leaks=0"}},
+                                                .folder = folder.path});
+        ASSERT_EQ(ended.exit_status, 0) << program << ": " << ended.errors;
+        pictures.push_back(load_image(folder.path / "a.png").image);
+    }
+    const Difference found = difference(pictures[0], pictures[1]);
+    EXPECT_LE(found.largest, 2);
+    EXPECT_LE(found.mean, 0.02);
+}
+
+TEST(Everywhere, another_build_draws_a_few_presets_the_same) { expect_the_same_from_another_build(12); }
+TEST(SlowEverywhere, another_build_draws_every_preset_the_same) { expect_the_same_from_another_build(1); }
 
 /// Through the program, pinned to one processor and with one rasterizer thread, against two.
 TEST(Everywhere, one_thread_or_two_give_the_same_file) {

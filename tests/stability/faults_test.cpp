@@ -140,24 +140,21 @@ TEST(SlowFaults, a_cache_write_that_fails_or_is_killed_is_computed_again) {
 
 TEST(SlowFaults, a_picture_is_written_whole_or_not_at_all) {
     const Folder folder;
-    for (const std::string name : {"a.exr", "a.png"}) {
-        const fs::path file = folder.path / name;
-        if (name == "a.png") continue;  // the saver's picture is a float one
-        const std::vector<std::string> words{"picture", file.string(), "0.5"};
-        const int count = operations(folder, words);
-        for (const std::string kind : {"kill", "full", "broken"})
-            for (int at = 1; at <= count; ++at) {
-                fs::remove_all(folder.path);
-                fs::create_directory(folder.path);
-                const Ended ended = save(folder, words, kind, at);
-                if (fs::exists(file)) {
-                    EXPECT_EQ(texel(load_image(file).image, 3, 3, 0), 0.5f) << kind << " at " << at;
-                }
-                if (kind == "kill" || ended.exit_status == 0) continue;
-                EXPECT_FALSE(fs::exists(file));
-                EXPECT_TRUE(files_below(folder.path).empty()) << kind << " at " << at;
+    const fs::path file = folder.path / "a.exr";
+    const std::vector<std::string> words{"picture", file.string(), "0.5"};
+    const int count = operations(folder, words);
+    for (const std::string kind : {"kill", "full", "broken"})
+        for (int at = 1; at <= count; ++at) {
+            fs::remove_all(folder.path);
+            fs::create_directory(folder.path);
+            const Ended ended = save(folder, words, kind, at);
+            if (fs::exists(file)) {
+                EXPECT_EQ(texel(load_image(file).image, 3, 3, 0), 0.5f) << kind << " at " << at;
             }
-    }
+            if (kind == "kill" || ended.exit_status == 0) continue;
+            EXPECT_FALSE(fs::exists(file));
+            EXPECT_TRUE(files_below(folder.path).empty()) << kind << " at " << at;
+        }
 }
 
 TEST(Faults, leftovers_of_a_process_with_the_same_number_do_not_hinder_a_save) {

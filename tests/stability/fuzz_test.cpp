@@ -8,8 +8,15 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <ostream>
 
 namespace patina {
+
+namespace fuzz {
+/// How googletest, which finds it by this name, lists a case.
+void PrintTo(const Target& target, std::ostream* out) { *out << "damaged copies of a " << target.name << " file"; }
+}  // namespace fuzz
+
 namespace {
 
 using fuzz::Target;

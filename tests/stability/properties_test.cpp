@@ -5,9 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <ostream>
 #include <string>
 
 namespace patina {
+
+/// How googletest, which finds it by this name, lists a case.
+void PrintTo(const Property& property, std::ostream* out) { *out << property.statement; }
+
 namespace {
 
 class Stability : public testing::TestWithParam<Property> {};

@@ -89,6 +89,26 @@ TEST(Strangers, a_hostile_preset_reads_nothing_odd_and_writes_nothing) {
     }
 }
 
+/// Names and keys of a stranger's file are shown, but cannot move a terminal's cursor or add lines of their
+/// own.
+TEST(Strangers, what_a_file_says_cannot_command_the_terminal) {
+    const Folder folder;
+    write_text(folder.path / "x.json",
+               "{\"albedo\":{\"map\":\"\\u001b[31mred\\nsecond \\u009b2J.png\"},\"\\u001b[2Jkey\":1}");
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"check", "x.json"},
+          {"render", "x.json", "-o", "a.png", "--size", "8x8", "--env", "furnace"}}) {
+        const Ended ended = run_patina(folder, words);
+        EXPECT_EQ(ended.exit_status, 1);
+        const std::string said = ended.output + ended.errors;
+        EXPECT_NE(said.find("red?second"), std::string::npos) << said;
+        EXPECT_EQ(said.find_first_of(std::string("\x1b\x00\x7f", 3)), std::string::npos) << said;
+        EXPECT_EQ(said.find("\xc2\x9b"), std::string::npos) << said;
+    }
+    EXPECT_NE(refusal("{\"albedo\":{\"map\":\"\\u0000.png\"}}").find("/albedo/map holds a zero"),
+              std::string::npos);
+}
+
 TEST(Strangers, unknown_keys_and_long_names_come_back_as_they_were) {
     const std::string name(100000, 'n');
     const Material material =

@@ -32,5 +32,25 @@ TEST(BenchMarkdown, lists_methods_by_roughness_with_the_worst_error) {
     EXPECT_TRUE(bench_markdown("light", result).empty());
 }
 
+TEST(BenchMarkdown, means_shading_errors_by_roughness_and_by_angle) {
+    Json result{{"roughness_range", "0.1 to 1"}, {"NoV_bands", {0.0, 0.5, 1.0}}};
+    result["modes"] = Json::array(
+        {{{"name", "split-sum"}, {"cost", 1.0}, {"rms", {{"metal", 0.3}, {"dielectric", 0.05}}}}});
+    result["cases"] = Json::array();
+    for (const double rms : {0.1, 0.3})
+        result["cases"].push_back({{"mode", "split-sum"},
+                                   {"mesh", "sphere"},
+                                   {"material", "metal"},
+                                   {"roughness", 0.1},
+                                   {"rms", rms},
+                                   {"rms_by_NoV", {2.0 * rms, 0.5 * rms}}});
+    const std::string text = bench_markdown("shading", result);
+    EXPECT_NE(text.find("| split-sum | 30.00 % | 5.00 % | 1.00 |"), std::string::npos) << text;
+    EXPECT_NE(text.find("| mode | 0.10 |"), std::string::npos) << text;
+    EXPECT_NE(text.find("| split-sum | 20.00 % |"), std::string::npos) << text;
+    EXPECT_NE(text.find("| mode | 0.0–0.5 | 0.5–1.0 |"), std::string::npos) << text;
+    EXPECT_NE(text.find("| split-sum | 40.00 % | 10.00 % |"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace patina

@@ -39,6 +39,7 @@ Comparison everything() {
                   .tonemap = Tonemap::None,
                   .background = Background::Plain,
                   .plain_color = {0.1f, 0.2f, 0.3f},
+                  .camera = Camera{.yaw_deg = -40.0f, .distance = 3.0f},
                   .photo = photo}};
     c.views = {{{.preset = "copper", .title = "Own"}, {.title = "Its light", .environment = "night"}}};
     return c;

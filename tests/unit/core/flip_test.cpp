@@ -158,5 +158,24 @@ TEST(Metrics, the_map_gets_lighter_at_an_even_pace) {
     EXPECT_EQ(texel(viridis_picture(values, 1.0), 0, 0, 2), texel(viridis_picture(values, 0.5), 0, 0, 2));
 }
 
+TEST(DifferencePicture, is_grey_where_nothing_differs_and_tells_darker_from_brighter) {
+    Image reference = make_image(8, 8, 3, PixelType::F32), test = reference;
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x)
+            for (int c = 0; c < 3; ++c) {
+                set_texel(reference, x, y, c, 0.5f);
+                set_texel(test, x, y, c, x < 2 ? 0.1f : x > 5 ? 0.9f : 0.5f);
+            }
+    EXPECT_NEAR(texel(signed_difference(test, reference), 0, 0, 0), -0.4f, 1e-6f);
+    const Image map = difference_picture(test, reference, DifferenceKind::Signed);
+    EXPECT_GT(texel(map, 0, 4, 2), texel(map, 0, 4, 0) + 0.3f) << "darker is blue";
+    EXPECT_GT(texel(map, 7, 4, 0), texel(map, 7, 4, 2) + 0.3f) << "brighter is red";
+    EXPECT_EQ(texel(map, 4, 4, 0), texel(map, 4, 4, 2)) << "equal is grey";
+    const Image relative = difference_picture(test, reference, DifferenceKind::Relative);
+    EXPECT_GT(texel(relative, 0, 4, 1), texel(relative, 4, 4, 1) + 0.3f);
+    const Image seen = difference_picture(test, reference, DifferenceKind::Flip);
+    EXPECT_GT(texel(seen, 0, 4, 1), texel(seen, 4, 4, 1));
+}
+
 }  // namespace
 }  // namespace patina

@@ -146,6 +146,29 @@ TEST(ImageIo, saving_replaces_the_old_picture_and_leaves_no_temporary_file) {
 }
 
 #ifdef __linux__
+TEST(ImageIo, saving_through_a_link_writes_where_it_leads) {
+    const TempFolder folder;
+    const Image picture = gradient(2, 2, 3, PixelType::U8);
+    write_file(folder / "a.png", bytes_of("old"));
+    fs::create_symlink("a.png", folder / "link.png");
+    fs::create_symlink("link.png", folder / "second.png");
+    save_image(folder / "second.png", picture);
+    EXPECT_TRUE(fs::is_symlink(folder / "second.png") && fs::is_symlink(folder / "link.png"));
+    expect_equal(load_image(folder / "a.png").image, picture);
+    fs::create_symlink("round.png", folder / "circle.png");
+    fs::create_symlink("circle.png", folder / "round.png");
+    EXPECT_THROW(save_image(folder / "round.png", picture), std::runtime_error);
+    fs::create_symlink("/dev/full", folder / "full.png");
+    EXPECT_THROW(save_image(folder / "full.png", picture), std::runtime_error);
+    EXPECT_TRUE(fs::is_symlink(folder / "full.png"));
+}
+
+TEST(ImageIo, a_name_may_be_as_long_as_the_disk_allows) {
+    const TempFolder folder;
+    save_image(folder / (std::string(251, 'n') + ".png"), gradient(2, 2, 3, PixelType::U8));
+    EXPECT_EQ(folder.files(), 1u);
+}
+
 /// While it lives, files end after a few bytes, as on a full disk.
 class TinyDisk {
 public:

@@ -1,4 +1,5 @@
-#include "renderer/ibl/bake.h"
+#include "renderer/ibl/brdf_table.h"
+
 #include "renderer/ibl/legendre.h"
 
 #include <glm/common.hpp>
@@ -90,10 +91,10 @@ glm::dvec2 exact_albedo(double NoV, double alpha) {
     return sum;
 }
 
-/// As a texture unit fetches it: 16 bits, bilinear.
-glm::dvec2 fetch(const BrdfTable& table, double NoV, double roughness) {
-    const double x = std::clamp(std::sqrt(NoV) * table.size - 0.5, 0.0, table.size - 1.0);
-    const double y = std::clamp(roughness * table.size - 0.5, 0.0, table.size - 1.0);
+/// As a texture unit fetches it, 16 bits, bilinear: x and y in texels.
+glm::dvec2 fetch(const BrdfTable& table, double x, double y) {
+    x = std::clamp(x, 0.0, table.size - 1.0);
+    y = std::clamp(y, 0.0, table.size - 1.0);
     const int x0 = std::min(int(x), table.size - 2), y0 = std::min(int(y), table.size - 2);
     const auto at = [&](int dx, int dy) {
         const glm::dvec2 ab = table.ab[std::size_t(y0 + dy) * table.size + x0 + dx];
@@ -102,23 +103,49 @@ glm::dvec2 fetch(const BrdfTable& table, double NoV, double roughness) {
     return glm::mix(glm::mix(at(0, 0), at(1, 0), x - x0), glm::mix(at(0, 1), at(1, 1), x - x0), y - y0);
 }
 
-TEST(BrdfTable, is_accurate_as_fetched) {
-    const BrdfTable table = bake_brdf_table();
-    const double last = 1.0 - 0.5 / table.size;  // beyond the outermost texels' centres a fetch is constant
+struct FetchErrors {
     double square = 0.0, largest = 0.0;
     int count = 0;
-    for (int i = 0; i < 150; ++i) {
-        const double u = std::fmod((i + 0.5) * 0.7548776662466927, 1.0),
-                     v = std::fmod((i + 0.5) * 0.5698402909980532, 1.0);
-        const double NoV = std::pow(std::lerp(0.1, last, u), 2.0), roughness = std::lerp(0.03, last, v);
-        const glm::dvec2 error =
-            glm::abs(fetch(table, NoV, roughness) - exact_albedo(NoV, roughness * roughness));
-        largest = std::max({largest, error.x, error.y});
+    void add(glm::dvec2 error) {
+        largest = std::max({largest, std::abs(error.x), std::abs(error.y)});
         square += error.x * error.x + error.y * error.y;
         count += 2;
     }
-    EXPECT_LE(std::sqrt(square / count), 1e-4);
-    EXPECT_LE(largest, 5e-4);
+    double rms() const { return std::sqrt(square / count); }
+};
+/// Two numbers in [0, 1), well spread over the square.
+glm::dvec2 spread(int i) {
+    return {std::fmod((i + 0.5) * 0.7548776662466927, 1.0), std::fmod((i + 0.5) * 0.5698402909980532, 1.0)};
+}
+
+TEST(BrdfTable, is_accurate_as_fetched) {
+    const BrdfTable table = bake_brdf_table();
+    const double last = 1.0 - 0.5 / table.size;  // beyond the outermost texels' centres a fetch is constant
+    FetchErrors errors;
+    for (int i = 0; i < 150; ++i) {
+        const double root = std::lerp(0.1, last, spread(i).x), roughness = std::lerp(0.03, last, spread(i).y);
+        errors.add(fetch(table, root * table.size - 0.5, roughness * table.size - 0.5) -
+                   exact_albedo(root * root, roughness * roughness));
+    }
+    EXPECT_LE(errors.rms(), 1e-4);
+    EXPECT_LE(errors.largest, 5e-4);
+}
+
+TEST(BrdfTable, from_end_to_end_is_accurate_everywhere) {
+    const BrdfTable table = bake_end_to_end_brdf_table(256);
+    FetchErrors errors;
+    for (int i = 0; i < 160; ++i) {
+        const bool at_end = i % 4 == 0;  // head on, or entirely rough
+        const double root = at_end && i % 8 == 0 ? 1.0 : std::lerp(0.06, 1.0, spread(i).x);
+        const double roughness = at_end && i % 8 != 0 ? 1.0 : std::lerp(0.02, 1.0, spread(i).y);
+        errors.add(fetch(table, root * (table.size - 1), roughness * (table.size - 1)) -
+                   exact_albedo(root * root, roughness * roughness));
+    }
+    EXPECT_LE(errors.rms(), 1e-4);
+    EXPECT_LE(errors.largest, 5e-4);
+    EXPECT_NEAR(double(table.ab.back().x + table.ab.back().y), 1.0 - std::log(2.0), 1e-4);
+    const glm::vec2 mirror = table.ab[std::size_t(table.size) - 1];
+    EXPECT_NEAR(double(mirror.x + mirror.y), 1.0, 1e-4);
 }
 
 }  // namespace
