@@ -61,6 +61,9 @@ struct AccuracyMeter::State {
     Signature seen;  ///< what the reference gathers
     bool gathering = false;
     bool wanted = false;
+    std::shared_ptr<const LightSampler> sampler;  ///< of sampler_of, once its job is done
+    EnvironmentHandle sampler_of;
+    Jobs::Id sampler_job = 0;
     struct Other {
         TargetHandle target;
         Signature seen;
@@ -74,7 +77,8 @@ struct AccuracyMeter::State {
     ui::AccuracyStatus status;
 
     void draw_other(const Scene& scene, glm::ivec2 size, Shading shading);
-    void gather(const Scene& scene, glm::ivec2 size);
+    bool has_sampler(const std::shared_ptr<State>& self, const EnvironmentHandle& environment);
+    void gather(const std::shared_ptr<State>& self, const Scene& scene, glm::ivec2 size);
     void forget_measurement();
     void start_measurement(const std::shared_ptr<State>& self, const Scene& scene);
     bool measurement_due() const;
@@ -98,7 +102,30 @@ void AccuracyMeter::State::forget_measurement() {
     status = {};
 }
 
-void AccuracyMeter::State::gather(const Scene& scene, glm::ivec2 size) {
+/// Made on a worker: a pass over all texels of a panorama would hold a frame up. Where it fails, restart
+/// makes it.
+bool AccuracyMeter::State::has_sampler(const std::shared_ptr<State>& self,
+                                       const EnvironmentHandle& environment) {
+    if (sampler_of != environment) {
+        if (sampler_job != 0) jobs.stop(sampler_job);
+        sampler = nullptr;
+        sampler_of = environment;
+        const auto texels = std::make_shared<PanoramaTexels>(Reference::panorama_of(environment));
+        sampler_job = jobs.start(
+            "Weighing the light for the reference",
+            [self, texels](JobContext&) -> Jobs::Done {
+                const auto made = std::make_shared<const LightSampler>(std::move(*texels));
+                return [self, made] {
+                    self->sampler_job = 0;
+                    self->sampler = made;
+                };
+            },
+            [self](const std::string&) { self->sampler_job = 0; });
+    }
+    return sampler_job == 0;
+}
+
+void AccuracyMeter::State::gather(const std::shared_ptr<State>& self, const Scene& scene, glm::ivec2 size) {
     const Scene shown = with_shading(scene, Shading::Reference);
     const Signature now{shown, size};
     if (!reference || reference->size_px() != size) {
@@ -108,9 +135,10 @@ void AccuracyMeter::State::gather(const Scene& scene, glm::ivec2 size) {
     }
     if (!gathering || !(seen == now)) {
         forget_measurement();
-        reference->restart(shown);
+        gathering = has_sampler(self, shown.environment);
+        if (!gathering) return;
+        reference->restart(shown, sampler);
         seen = now;
-        gathering = true;
     }
     if (reference->progress().done) return;
     reference->draw_for(kStepSeconds);
@@ -167,6 +195,8 @@ AccuracyMeter::AccuracyMeter(Renderer& renderer, Jobs& jobs)
                        .reference = {},
                        .reference_target = {},
                        .seen = {},
+                       .sampler = {},
+                       .sampler_of = {},
                        .others = {},
                        .error_map = {},
                        .flip_map = {},
@@ -194,7 +224,7 @@ void AccuracyMeter::update(const Scene& scene, glm::ivec2 size_px, const ui::Acc
     const bool moves = held && !(state.seen == Signature{with_shading(scene, Shading::Reference), size_px});
     state.wanted = reference && final_picture && !moves;
     if (!state.wanted) return;
-    state.gather(scene, size_px);
+    state.gather(state_, scene, size_px);
     if (measure && state.measurement_due()) state.start_measurement(state_, scene);
 }
 

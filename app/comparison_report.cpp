@@ -93,7 +93,7 @@ bool ComparisonReport::step() {
         const glm::ivec2 small(options_.picture_px / 2);
         const LoadedPhoto& photo = scenes_.photo(light.photo->file);
         const auto radiance = [&](const Scene& trial) { return scenes_.radiance(trial, small); };
-        shot.photo = shoot_photo(*light.photo, photo, scene, scenes_.radiance(scene, size), {}, false);
+        shot.photo = shoot_photo(*light.photo, photo, scenes_.radiance(scene, size));
         if (options_.hints && shot.photo->residual.pixels > 0)
             shot.photo->hints = hints_for(photo_in_view(*light.photo, photo.linear, small),
                                           light.photo->region, scene, radiance);

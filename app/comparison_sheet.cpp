@@ -104,8 +104,7 @@ private:
         }
         const Image radiance = scenes_.radiance(scene, options_.cell_px);
         sheet_.set_cell(column, row, options_.radiance ? radiance : scenes_.display(scene, options_.cell_px));
-        const PhotoShot shot =
-            shoot_photo(*light.photo, scenes_.photo(light.photo->file), scene, radiance, {}, false);
+        const PhotoShot shot = shoot_photo(*light.photo, scenes_.photo(light.photo->file), radiance);
         sheet_.set_cell(column + 1, row, options_.radiance ? without_coverage(shot.linear) : shot.picture);
         sheet_.set_cell(column + 2, row, cell(shot.heat));
         sheet_.set_cell_title(column + 2, row, short_text(shot.residual));

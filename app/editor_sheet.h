@@ -26,6 +26,7 @@ struct SheetPreset {
 /// A report under way: a view a step, so that the window goes on.
 struct ReportWork {
     ReportWork(Editor& editor, Comparison shown, std::filesystem::path to);
+    ~ReportWork() = default;
     ReportWork(const ReportWork&) = delete;
     ReportWork& operator=(const ReportWork&) = delete;
 

@@ -48,10 +48,10 @@ std::vector<MapFile> map_list(const PhotoMaps& maps, const MapFiles& files) {
                   static_cast<double>(maps.depth));
     std::vector<MapFile> list;
     for (MapFile& each : std::array{MapFile{&maps.albedo, files.albedo, "Albedo"},
-                                  MapFile{&maps.height, files.height, depth.data()},
-                                  MapFile{&maps.normal, files.normal, "Normals, +Y up (OpenGL)"},
-                                  MapFile{&maps.roughness, files.roughness, "Roughness, an estimate"},
-                                  MapFile{&maps.ao, files.ao, "Ambient occlusion"}})
+                                    MapFile{&maps.height, files.height, depth.data()},
+                                    MapFile{&maps.normal, files.normal, "Normals, +Y up (OpenGL)"},
+                                    MapFile{&maps.roughness, files.roughness, "Roughness, an estimate"},
+                                    MapFile{&maps.ao, files.ao, "Ambient occlusion"}})
         if (!each.file.empty()) list.push_back(std::move(each));
     return list;
 }

@@ -156,11 +156,11 @@ std::vector<fs::path> shipped_presets() {
 }
 
 fs::path find_preset(const std::string& name) {
-    const fs::path file = utf8_to_path(name);
+    fs::path file = utf8_to_path(name);
     std::error_code ignored;
     if (fs::exists(file, ignored)) return file;
     if (!file.has_parent_path() && !file.has_extension()) {
-        const fs::path shipped = share_folder() / "presets" / utf8_to_path(name + ".json");
+        fs::path shipped = share_folder() / "presets" / utf8_to_path(name + ".json");
         if (fs::exists(shipped, ignored)) return shipped;
     }
     throw std::runtime_error(

@@ -39,10 +39,18 @@ std::optional<Material> lighter(const Material& material, float offset) {
     return moved;
 }
 
-std::optional<Estimate> tried(const Image& photo, const std::optional<Region>& region, Scene scene,
-                              const ShootRadiance& radiance, const Move& move,
-                              std::span<const float> offsets) {
-    const Material material = scene.material;
+/// What a photo is compared with.
+struct Compared {
+    const Image& photo;
+    const std::optional<Region>& region;
+    const Scene& scene;
+    const ShootRadiance& radiance;
+};
+
+std::optional<Estimate> tried(const Compared& compared, const Move& move, std::span<const float> offsets) {
+    const auto& [photo, region, first, radiance] = compared;
+    const Material material = first.material;
+    Scene scene = first;
     std::vector<Trial> trials;
     for (const float offset : offsets) {
         const std::optional<Material> moved = move(material, offset);
@@ -86,23 +94,24 @@ LoadedPhoto load_photo(const Registry& registry, const std::string& file, int ma
 
 std::vector<std::string> hints_for(const Image& photo, const std::optional<Region>& region,
                                    const Scene& scene, const ShootRadiance& radiance) {
-    static constexpr std::array kRoughness{-0.3f, -0.2f, -0.1f, -0.05f, 0.0f, 0.05f, 0.1f, 0.2f, 0.3f};
-    static constexpr std::array kStops{-1.0f, -0.5f, -0.25f, 0.0f, 0.25f, 0.5f, 1.0f};
+    static constexpr std::array offsets{-0.3f, -0.2f, -0.1f, -0.05f, 0.0f, 0.05f, 0.1f, 0.2f, 0.3f};
+    static constexpr std::array stops{-1.0f, -0.5f, -0.25f, 0.0f, 0.25f, 0.5f, 1.0f};
     struct Hint {
         float delta_e;
         std::string text;
     };
     std::vector<Hint> hints;
+    const Compared compared{photo, region, scene, radiance};
     const auto gain = [](const Estimate& e) {
         return formatted(" (mean ΔE %.1f → about %.1f).", double(e.now), double(e.delta_e));
     };
-    if (const auto e = tried(photo, region, scene, radiance, rougher, kRoughness); e && e->clear)
+    if (const auto e = tried(compared, rougher, offsets); e && e->clear)
         hints.push_back(
             {e->delta_e, formatted("The highlights are %s than in the photo: try roughness about %.2f %s",
                                    e->offset > 0.0f ? "narrower" : "wider", double(std::abs(e->offset)),
                                    e->offset > 0.0f ? "higher" : "lower") +
                              gain(*e)});
-    if (const auto e = tried(photo, region, scene, radiance, lighter, kStops); e && e->clear)
+    if (const auto e = tried(compared, lighter, stops); e && e->clear)
         hints.push_back(
             {e->delta_e,
              formatted("The surface is %s than in the photo: try the base colour about %.0f %% %s",
@@ -127,15 +136,12 @@ Image display_of_linear(const Image& linear) {
     return display;
 }
 
-PhotoShot shoot_photo(const Photo& photo, const LoadedPhoto& loaded, const Scene& scene, const Image& render,
-                      const ShootRadiance& radiance, bool with_hints) {
+PhotoShot shoot_photo(const Photo& photo, const LoadedPhoto& loaded, const Image& render) {
     PhotoShot shot{.title = photo_title(photo), .exif = loaded.exif};
     shot.linear = photo_in_view(photo, loaded.linear, {render.width, render.height});
     shot.picture = display_of_linear(shot.linear);
     shot.residual = residual_of(shot.linear, render, photo.region);
     shot.heat = heat_picture(delta_e_picture(shot.linear, render, photo.region), kHeatWhite);
-    if (with_hints && shot.residual.pixels > 0)
-        shot.hints = hints_for(shot.linear, photo.region, scene, radiance);
     return shot;
 }
 

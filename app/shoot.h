@@ -40,10 +40,8 @@ struct PhotoShot {
 };
 inline constexpr float kHeatWhite = 20.0f;
 
-/// The photo held against that view of the scene. with_hints: also draws the material with roughness and
-/// albedo moved, to say which way is better.
-PhotoShot shoot_photo(const Photo& photo, const LoadedPhoto& loaded, const Scene& scene, const Image& render,
-                      const ShootRadiance& radiance, bool with_hints);
+/// The photo held against a view's linear radiance.
+PhotoShot shoot_photo(const Photo& photo, const LoadedPhoto& loaded, const Image& render);
 
 /// What moving roughness or albedo would gain, best first; empty where nothing clearly helps.
 std::vector<std::string> hints_for(const Image& photo_in_view, const std::optional<Region>& region,

@@ -102,7 +102,7 @@ Trial mean_stays(Random& random, Stage&) {
     for (int c = 0; c < 3; ++c) {
         const double mean = mean_of(environment, c);
         // c_0 = 1/√4π is part of the stored coefficient
-        if (mean > 0.0) trial.add(std::abs(coefficients.at(0, 0)[2 * c] / mean - 1.0));
+        if (mean > 0.0) trial.add(std::abs(coefficients.at(0, 0)[std::size_t(2) * c] / mean - 1.0));
     }
     for (const double roughness : {0.1, 0.5, 1.0})
         trial.add(std::abs(ggx_zonal(roughness * roughness, 2)[0] - 1.0));
@@ -253,10 +253,12 @@ Trial yaw_is_a_phase(Random& random, Stage&) {
         for (int l = m; l <= band; ++l)
             for (int channel = 0; channel < 3; ++channel) {
                 const double angle = -2.0 * std::numbers::pi * m * shift / width;
-                const float* z = a.at(l, m) + 2 * channel;
+                const float* z = a.at(l, m) + std::size_t(2) * channel;
                 const double re = z[0] * std::cos(angle) - z[1] * std::sin(angle);
                 const double im = z[0] * std::sin(angle) + z[1] * std::cos(angle);
-                trial.add(std::hypot(b.at(l, m)[2 * channel] - re, b.at(l, m)[2 * channel + 1] - im) / scale);
+                trial.add(std::hypot(b.at(l, m)[std::size_t(2) * channel] - re,
+                                     b.at(l, m)[std::size_t(2) * channel + 1] - im) /
+                          scale);
             }
     return trial;
 }

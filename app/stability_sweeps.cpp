@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -159,28 +160,40 @@ Json prefilter_sweep(bool quick) {
     return result;
 }
 
+constexpr int kFurnaceBins = 20;
+
+struct FurnaceCase {
+    Shading shading;
+    float metallic;
+    int steps;  ///< of roughness
+};
+/// Errors by roughness become points of line; the largest of each NoV's bin into worst_at.
+void add_furnace(Stage& stage, const FurnaceCase& c, Json& line, std::array<double, kFurnaceBins>& worst_at) {
+    for (int i = 0; i <= c.steps; ++i) {
+        const float roughness = float(i) / float(c.steps);
+        double worst = 0.0;
+        for (const FurnacePixel& pixel : furnace_pixels(stage, c.shading, roughness, c.metallic)) {
+            worst = std::max(worst, pixel.error);
+            const auto bin = std::min(std::size_t(pixel.NoV * kFurnaceBins), worst_at.size() - 1);
+            worst_at[bin] = std::max(worst_at[bin], pixel.error);
+        }
+        line["points"].push_back({roughness, worst});
+    }
+}
+
 /// |out − 1| of a white sphere under light 1 from everywhere, every shading mode that is to keep energy.
 void furnace_sweeps(Stage& stage, bool quick, Json& all) {
     Json by_roughness = sweep("furnace-roughness", "roughness", "largest |out − 1| of a white sphere");
     Json by_nov = sweep("furnace-nov", "NoV", "largest |out − 1| of a white sphere");
-    constexpr int bins = 20;
     for (const auto& mode : kShadings) {
         if (!keeps_energy(mode.value)) continue;
         for (const float metallic : {0.0f, 1.0f}) {
             const std::string name = std::string(mode.id) + (metallic > 0.5f ? ", metal" : ", dielectric");
             Json line = series(name), angles = series(name);
-            std::vector<double> worst_at(bins, 0.0);
-            for (int i = 0; i <= (quick ? 10 : 40); ++i) {
-                const float roughness = float(i) / (quick ? 10.0f : 40.0f);
-                double worst = 0.0;
-                for (const FurnacePixel& pixel : furnace_pixels(stage, mode.value, roughness, metallic)) {
-                    worst = std::max(worst, pixel.error);
-                    double& bin = worst_at[std::min(std::size_t(pixel.NoV * bins), std::size_t(bins) - 1)];
-                    bin = std::max(bin, pixel.error);
-                }
-                line["points"].push_back({roughness, worst});
-            }
-            for (int i = 0; i < bins; ++i) angles["points"].push_back({(i + 0.5) / bins, worst_at[i]});
+            std::array<double, kFurnaceBins> worst_at{};
+            add_furnace(stage, {mode.value, metallic, quick ? 10 : 40}, line, worst_at);
+            for (int i = 0; i < kFurnaceBins; ++i)
+                angles["points"].push_back({(i + 0.5) / kFurnaceBins, worst_at[i]});
             by_roughness["series"].push_back(line);
             by_nov["series"].push_back(angles);
         }

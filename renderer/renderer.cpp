@@ -100,7 +100,7 @@ void Renderer::State::draw_reference(const Scene& scene, const GpuEnvironment& e
         glUseProgram(depth_only().name());
         gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
         gl::begin_reference_pass(gl::ReferencePass::Surface);
-        const gl::Program& program = reference(features);
+        const gl::Program& program = reference(features, colored_lights(environment));
         glUseProgram(program.name());
         const double light = slice.total * double(exposure);
         glUniform2f(glGetUniformLocation(program.name(), "reference_slice"), float(slice.points),

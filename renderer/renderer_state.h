@@ -24,6 +24,8 @@ gl::Texture make_brdf_texture();
 gl::Texture make_lobe_texture();
 EnvironmentHandle make_darkness();
 LightLayout layout_of(const GpuEnvironment& environment);
+/// How many lights' colours the panorama's alpha needs (light.glsl).
+std::size_t colored_lights(const GpuEnvironment& environment);
 Features features_for(const Scene& scene, const GpuEnvironment& environment);
 void bind_texture(GLuint unit, GLenum kind, const gl::Texture& texture);
 /// As every pass over a mesh needs them.
@@ -53,7 +55,7 @@ struct Renderer::State {
     WorkLedger work;
     ProgramStore programs;
     std::map<Features, gl::Program> surfaces;
-    std::map<Features, gl::Program> references;
+    std::map<std::pair<Features, int>, gl::Program> references;  ///< by lights: 0, 1, more
     std::map<std::pair<Features, int>, gl::Program> rivals;      ///< by samples
     gl::Program depth;                                           ///< of a mesh, nothing else
     std::array<gl::Program, 4> backgrounds;                      ///< sharp, blurred; the same of stored rays
@@ -73,7 +75,7 @@ struct Renderer::State {
     gl::Program compiled(const char* vertex, const char* fragment, const std::vector<std::string>& defines);
     void count_draw(std::uint64_t triangles, std::uint64_t calls = 1);
     const gl::Program& surface(Features features);
-    const gl::Program& reference(Features features);
+    const gl::Program& reference(Features features, std::size_t lights);
     const gl::Program& rival(Features features, int samples);
     const gl::Program& depth_only();
     const gl::Program& background(Background background, bool stored = false);

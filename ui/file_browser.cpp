@@ -370,7 +370,8 @@ void open_browser(PanelContext& context, BrowserPurpose purpose, MapSlot slot) {
     browser.selected.clear();
     browser.naming_folder = false;
     browser.extensions.clear();
-    if (saves(purpose)) {
+    browser.file_name.clear();  // a comparison's and a report's are the app's to choose
+    if (purpose == BrowserPurpose::SavePreset || purpose == BrowserPurpose::ExportRender) {
         browser.file_name = context.material.name;
         std::replace(browser.file_name.begin(), browser.file_name.end(), '/', '-');
     }

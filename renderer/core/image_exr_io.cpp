@@ -31,12 +31,12 @@ using Bytes = std::span<const std::byte>;
 
 /// Helpers that share the unpacking of one file's blocks; started with the first file.
 int helper_threads() {
-    static const int kCount = [] {
+    static const int count = [] {
         const int count = static_cast<int>(IlmThread::ThreadPool::estimateThreadCountForFileIO());
         Imf::setGlobalThreadCount(std::clamp(count, 0, 4));
         return Imf::globalThreadCount();
     }();
-    return kCount;
+    return count;
 }
 
 class MemoryInput : public Imf::IStream {
@@ -240,8 +240,8 @@ DecodedImage decode(const ImageSource& source) {
 }  // namespace
 
 const ImageCodec& exr_codec() {
-    static constexpr ImageCodec kCodec{.header = header, .decode = decode};
-    return kCodec;
+    static constexpr ImageCodec codec{.header = header, .decode = decode};
+    return codec;
 }
 
 std::vector<std::byte> encode_exr(const Image& image, const ImageMetadata& metadata) {

@@ -44,9 +44,9 @@ auto named(const fs::path& file, Work work) {
 const ImageCodec& module_codec(ImageFormat format) {
     using Entry = const ImageCodec* (*)();
     try {
-        static const ImageCodec* const kCodec =
+        static const ImageCodec* const codec =
             reinterpret_cast<Entry>(module_symbol(kImageModule, kImageModuleEntry))();
-        return *kCodec;
+        return *codec;
     } catch (const std::runtime_error& error) {
         throw std::runtime_error("is a picture of the kind \"" + std::string(image_format_id(format)) +
                                  "\", and " + one_line(error.what()) +

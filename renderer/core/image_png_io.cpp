@@ -189,8 +189,8 @@ int color_type(int channels) {
 }  // namespace
 
 const ImageCodec& png_codec() {
-    static constexpr ImageCodec kCodec{.header = header, .decode = decode};
-    return kCodec;
+    static constexpr ImageCodec codec{.header = header, .decode = decode};
+    return codec;
 }
 
 std::vector<std::byte> encode_png(const Image& image, const ImageMetadata& metadata) {

@@ -25,6 +25,8 @@ vec3 panorama_light(vec3 d, float solid_angle, vec3 lights) {
     return (texel.rgb + texel.a * lights) * env_scale.x;
 }
 
+vec3 color_of(vec3 irradiance) { return irradiance * (3.0 / max(dot(irradiance, vec3(1.0)), 1e-30)); }
+
 // The colour of the extracted light that lies nearest to a direction, with a mean channel of 1.
 vec3 light_color(vec3 d) {
     vec3 color = vec3(1.0);
@@ -33,7 +35,7 @@ vec3 light_color(vec3 d) {
         if (float(i) >= counts.z) break;
         float near = dot(environment_direction(light_direction[i].xyz), d);
         vec3 E = light_irradiance[i].rgb;
-        if (near > nearest) color = E * (3.0 / max(dot(E, vec3(1.0)), 1e-30));
+        if (near > nearest) color = color_of(E);
         nearest = max(nearest, near);
     }
     return color;

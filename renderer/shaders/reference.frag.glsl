@@ -4,6 +4,8 @@
 //     g = [F D V NoL + (FmsEms + kD) NoL/π] L.
 // The square leaves to the other strategy what this one meets but now and then; with evenly spread points that pays.
 // All pixels share the points of a slice; their errors are then smooth across the picture instead of grainy.
+// PANORAMA_LIGHTS: 0, 1 or 2 for more of the lights whose colours the panorama needs. The search for the nearest of several
+// takes software renderers longer than all the rest, even where no texel asks for it.
 #include "blocks.h"
 #include "brdf.glsl"
 #include "light.glsl"
@@ -84,7 +86,11 @@ vec3 panorama_texel(vec3 d) {
     ivec2 size = textureSize(panorama_map, 0);
     ivec2 at = ivec2(panorama_coordinates(d) * vec2(size));
     vec4 texel = texelFetch(panorama_map, clamp(at, ivec2(0), size - 1), 0);
+#if PANORAMA_LIGHTS == 1
+    texel.rgb += texel.a * color_of(light_irradiance[0].rgb);
+#elif PANORAMA_LIGHTS > 1
     if (texel.a > 0.0) texel.rgb += texel.a * light_color(d);
+#endif
     return texel.rgb * env_scale.x;
 }
 

@@ -159,7 +159,7 @@ TEST(PhotoTruth, the_shot_carries_picture_numbers_and_heat) {
     Scene scene = truth_scene();
     scene.material.albedo.value = {0.1f, 0.4f, 0.1f};
     const LoadedPhoto loaded{.linear = synthetic_photo(radiance()(truth_scene()))};
-    const PhotoShot shot = shoot_photo(found().photo, loaded, scene, radiance()(scene), radiance(), false);
+    const PhotoShot shot = shoot_photo(found().photo, loaded, radiance()(scene));
     EXPECT_EQ(shot.title, "synthetic.exr");
     EXPECT_GT(shot.residual.delta_e, 10.0f);
     EXPECT_EQ(shot.picture.channels, 3);

@@ -24,7 +24,7 @@ Program::Variables with_faults(Program::Variables variables) {
     return variables;
 }
 
-TEST(DriverFaults, a_lost_context_ends_in_one_sentence_and_the_next_start_offers_the_work) {
+TEST(SlowDriverFaults, a_lost_context_ends_in_one_sentence_and_the_next_start_offers_the_work) {
     const Folder home;
     const fs::path sign = home / "ready.png", lost = home / "lost";
     std::ofstream(home / "gold.json") << R"({"name": "Gold", "roughness": {"value": 0.25}})";
@@ -59,7 +59,7 @@ wait until clean
     EXPECT_GT(load_material(home / "gold.json").material.metallic.value, 0.3f);
 }
 
-TEST(DriverFaults, a_map_that_has_no_place_on_the_card_is_drawn_coarser_and_the_log_says_so) {
+TEST(SlowDriverFaults, a_map_that_has_no_place_on_the_card_is_drawn_coarser_and_the_log_says_so) {
     const Folder home;
     const fs::path map = home / "noise.png";
     Image image = make_image(512, 512, 3, PixelType::U8);

@@ -32,12 +32,14 @@ void write_wall(const std::filesystem::path& file) {
     save_image(file, wall);
 }
 
-TEST(EditorSheet, goes_from_presets_and_lights_over_a_photo_to_a_report) {
+TEST(SlowEditorSheet, goes_from_presets_and_lights_over_a_photo_to_a_report) {
     const Folder home;
     write_picture(home / "shot.png", 118, 118, 100);
     EXPECT_DRIVEN(drive(home, R"(
 wait idle
 key c
+wait idle
+click sheet.view.2
 wait idle
 click sheet.add_light
 wait idle
@@ -85,6 +87,9 @@ wait until sheet_file~wall.json
 wait idle
 click compare.report
 wait until item browser.file_name
+click browser.file_name
+key ctrl+a
+type report.pdf
 click browser.confirm
 wait until log~Exported
 wait idle
@@ -105,7 +110,7 @@ wait idle
         EXPECT_LT(std::abs(point.x - 0.5f), 0.3f) << "each was drawn inwards";
         EXPECT_LT(std::abs(point.y - 0.5f), 0.3f);
     }
-    const std::string report = read_text(home / "wall.pdf");
+    const std::string report = read_text(home / "report.pdf");
     EXPECT_TRUE(report.starts_with("%PDF"));
     EXPECT_GT(report.size(), 20000u) << "six pictures";
     // Opened again it is what was saved; its report as a page holds its pictures.

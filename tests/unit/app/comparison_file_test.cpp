@@ -78,7 +78,8 @@ TEST(ComparisonFile, every_key_it_writes_is_in_the_schema) {
         for (const auto& [key, value] : object.items()) EXPECT_TRUE(properties.contains(key)) << key;
     };
     expect_known(written, text["properties"]);
-    expect_known(written["camera"], text["properties"]["camera"]["properties"]);
+    expect_known(written["camera"], text["$defs"]["camera"]["properties"]);
+    expect_known(written["columns"][1]["camera"], text["$defs"]["camera"]["properties"]);
     expect_known(written["columns"][1], text["$defs"]["lighting"]["properties"]);
     expect_known(written["columns"][1]["photo"], text["$defs"]["photo"]["properties"]);
     for (const auto& row : kTonemaps)

@@ -114,7 +114,7 @@ inline KtxFile read_ktx1(std::span<const std::byte> bytes) {
     in.expect(6, 4, "numberOfFaces");
     const std::uint32_t mips = in.get32();
     KtxBytes::demand(file.base >= 1 && file.base <= 16384, "pixelWidth");
-    KtxBytes::demand(mips >= 1 && file.base >> (mips - 1) >= 1, "numberOfMipmapLevels");
+    KtxBytes::demand(mips >= 1 && mips <= 15 && file.base >> (mips - 1) >= 1, "numberOfMipmapLevels");
     const std::uint32_t length = in.get32();
     KtxBytes::demand(length % 4 == 0, "bytesOfKeyValueData");
     file.values = read_values(in, length, false);
@@ -162,7 +162,7 @@ inline KtxFile read_ktx2(std::span<const std::byte> bytes) {
     in.expect(6, 4, "faceCount");
     const std::uint32_t mips = in.get32();
     KtxBytes::demand(file.base >= 1 && file.base <= 16384, "pixelWidth");
-    KtxBytes::demand(mips >= 1 && file.base >> (mips - 1) >= 1, "levelCount");
+    KtxBytes::demand(mips >= 1 && mips <= 15 && file.base >> (mips - 1) >= 1, "levelCount");
     in.expect(0, 4, "supercompressionScheme");
     const std::uint32_t descriptor_at = 80 + 24 * mips;
     in.expect(descriptor_at, 4, "dfdByteOffset");
