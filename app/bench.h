@@ -46,6 +46,8 @@ nlohmann::ordered_json bench_light(const BenchContext& context);
 nlohmann::ordered_json bench_views(const BenchContext& context);
 /// The editor's start, cold and warm, against a bare window. Needs a display.
 nlohmann::ordered_json bench_start(const BenchContext& context);
+/// Pictures, steps of the artist and lights with skipping and without: time, memory, ledger, difference.
+nlohmann::ordered_json bench_skip(const BenchContext& context);
 /// Prefiltering: run time against error, method by method.
 nlohmann::ordered_json bench_ibl(const BenchContext& context);
 /// Properties on random cases: the worst of each against its tolerance.

@@ -187,9 +187,54 @@ std::string shading_tables(const Json& result) {
     return text;
 }
 
+/// "12 (20)" with skipping and without.
+std::string both(const Json& row, const char* key, int digits) {
+    return number(row.at("skip").at(key).get<double>(), digits) + " (" +
+           number(row.at("no_skip").at(key).get<double>(), digits) + ")";
+}
+
+/// Every counter that skipping changed.
+std::string changed_work(const Json& row) {
+    std::string text;
+    for (const auto& [key, value] : row.at("no_skip").at("work").items()) {
+        const Json& own = row.at("skip").at("work").at(key);
+        if (own == value) continue;
+        text += (text.empty() ? "" : ", ") + key + " " + own.dump() + " (" + value.dump() + ")";
+    }
+    return text;
+}
+
+std::string skip_tables(const Json& result) {
+    std::string text =
+        "Whole commands, 512²; in brackets with `--no-skip`.\n\n"
+        "| picture | CPU ms | wall ms | peak MiB | largest 8-bit step | work |\n|---|---|---|---|---|---|\n";
+    for (const Json& row : result.at("commands"))
+        text += "| " + row.at("name").get<std::string>() + " | " + both(row, "cpu_ms", 0) + " | " +
+                both(row, "wall_ms", 0) + " | " + both(row, "peak_mib", 0) + " | " +
+                row.at("largest_code_step").dump() + " | " + changed_work(row) + " |\n";
+    text +=
+        "\nOne step, from the change to the picture.\n\n| step | ms | without skipping | ratio "
+        "|\n|---|---|---|---|\n";
+    for (const Json& row : result.at("steps"))
+        text += "| " + row.at("name").get<std::string>() + " | " +
+                number(row.at("skip_ms").get<double>(), 1) + " | " +
+                number(row.at("no_skip_ms").get<double>(), 1) + " | " +
+                number(row.at("ratio").get<double>(), 2) + " |\n";
+    const Json& light = result.at("environment_switch");
+    text += "\nAnother environment, until its picture is there; decoding it alone takes " +
+            number(light.at("decode_ms").get<double>(), 1) +
+            " ms.\n\n| from | ms | without skipping |\n|---|---|---|\n";
+    for (const Json& row : light.at("cases"))
+        text += "| " + row.at("name").get<std::string>() + " | " +
+                number(row.at("skip_ms").get<double>(), 1) + " | " +
+                number(row.at("no_skip_ms").get<double>(), 1) + " |\n";
+    return text;
+}
+
 }  // namespace
 
 std::string bench_markdown(std::string_view benchmark, const Json& result) {
+    if (benchmark == "skip") return skip_tables(result);
     if (benchmark == "shading") return shading_tables(result);
     if (benchmark != "ibl") return {};
     std::string text = methods_table(result);

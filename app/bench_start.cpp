@@ -1,5 +1,6 @@
 // `patina bench start`: the editor's start, cold and warm, against a bare window of the same size.
 #include "app/bench.h"
+#include "app/bench_process.h"
 #include "app/temporary_folder.h"
 #include "materials/text_io.h"
 #include "renderer/core/file_io.h"
@@ -28,16 +29,6 @@ constexpr int kWidth = 1440, kHeight = 900;
 double now_s() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-void set_variable(const char* name, const std::string& value) {
-#ifdef _WIN32
-    _putenv_s(name, value.c_str());
-#else
-    setenv(name, value.c_str(), 1);
-#endif
-}
-
-std::string quoted(const fs::path& path) { return "\"" + path_to_utf8(path) + "\""; }
 
 /// One start of a program: from before the process to its first frame with a picture.
 struct Start {

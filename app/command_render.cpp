@@ -92,7 +92,9 @@ void render_shots(const RenderArgs& args, const Registry& registry, const fs::pa
         if (args.turntable > 0) studio.progress.show("drawing", float(i) / float(shots.size()));
         scene.camera = shots[i].scene.camera;
         scene.view = shots[i].scene.view;
-        const Image image = studio.picture(scene, *target, output.extension() == ".exr");
+        const bool same_surface = args.turn_light && shots.size() > 1;
+        const Image image = studio.picture(scene, *target, output.extension() == ".exr",
+                                           same_surface ? Reuse::Expected : Reuse::None);
         exporter.save(shots[i].file, image,
                       described_with(scene.material.name + " under " + args.scene.environments.front(),
                                      shots[i].made_from));
@@ -167,6 +169,7 @@ int run_compare(const RenderArgs& args, const Registry& registry) {
     for (std::size_t x = 0; x < args.scene.environments.size(); ++x)
         sheet.set_column_title(int(x), environment_title(registry, args.scene.environments[x]));
     const TargetHandle target = studio.renderer.make_target(args.scene.size_px);
+    const Reuse reuse = args.scene.environments.size() > 2 ? Reuse::Expected : Reuse::None;
     NeededLight needed;  // of the whole sheet, so that each light is baked once
     for (const std::string& preset : args.presets)
         needed = combined(needed, studio.loader.needed_light(preset, args.scene));
@@ -175,7 +178,7 @@ int run_compare(const RenderArgs& args, const Registry& registry) {
         sheet.set_row_title(int(y), scene.material.name);
         for (std::size_t x = 0; x < args.scene.environments.size(); ++x) {
             scene.environment = studio.loader.environment(args.scene.environments[x], needed);
-            sheet.set_cell(int(x), int(y), studio.picture(scene, *target, radiance));
+            sheet.set_cell(int(x), int(y), studio.picture(scene, *target, radiance, reuse));
         }
     }
     studio.progress.clear();

@@ -224,9 +224,14 @@ RenderTarget& ComparisonScenes::target(glm::ivec2 size_px) {
     return *handle;
 }
 
+/// Where it pays to compile for it. One camera and mesh: presets without maps share a surface, and so do the lightings of each preset.
+Reuse ComparisonScenes::reuse() const {
+    return places_of(comparison_).size() > 2 ? Reuse::Expected : Reuse::None;
+}
+
 Image ComparisonScenes::radiance(const Scene& scene, glm::ivec2 size_px) {
     RenderTarget& to = target(size_px);
-    renderer_.draw(scene, to);
+    renderer_.draw(scene, to, reuse());
     return renderer_.read_radiance(to);
 }
 ReferenceError ComparisonScenes::error(const Scene& scene, int samples) {
@@ -249,7 +254,7 @@ ReferenceError ComparisonScenes::error(const Scene& scene, int samples) {
 
 Image ComparisonScenes::display(const Scene& scene, glm::ivec2 size_px) {
     RenderTarget& to = target(size_px);
-    renderer_.draw(scene, to);
+    renderer_.draw(scene, to, reuse());
     return renderer_.read_display(to);
 }
 

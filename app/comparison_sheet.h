@@ -37,6 +37,7 @@ public:
 
 private:
     RenderTarget& target(glm::ivec2 size_px);
+    Reuse reuse() const;
 
     Renderer& renderer_;
     SceneLoader& loader_;

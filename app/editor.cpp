@@ -2,6 +2,7 @@
 
 #include "app/editor_loop.h"
 #include "app/paths.h"
+#include "app/program_store_io.h"
 #include "materials/text_io.h"
 #include "renderer/core/image_io.h"
 #include "ui/workspace.h"
@@ -326,6 +327,8 @@ Editor::Editor(const Registry& parts, Renderer& gpu, Jobs& workers, Settings rem
       thumbnails(gpu, parts, workers, {.folder = cache_folder() / "thumbnails", .bakes = bake_cache()}),
       recovery(state_folder()),
       autosave_seen(document) {
+    renderer.set_reuse(skip);
+    if (skip) renderer.set_program_store(program_store_in(cache_folder() / "programs"));
     ui.library_width = settings.library_width;
     ui.inspector_width = settings.inspector_width;
     ui.drawer_height = settings.drawer_height;

@@ -42,6 +42,8 @@ private:
     void draw_sheet(const std::vector<ui::SheetSize>& seen);
     void fill_sheet(ui::PanelContext& context) const;
     bool sheet_is_stale() const;
+    Reuse reuse_in_sheet(const Scene& scene, const ui::SheetSize& at,
+                         const std::vector<ui::SheetSize>& seen) const;
     Scene sheet_scene(std::size_t view, glm::ivec2 size_px) const;
     bool update_reconciler();
     bool wants_refining() const { return !editor_.document.sheet && has_drawn_ && shown_ != Pace::Good; }

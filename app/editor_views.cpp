@@ -15,6 +15,18 @@ Scene Loop::sheet_scene(std::size_t view, glm::ivec2 size_px) const {
     return editor_.reconciler.scene_of(view, camera, view_of_sheet(editor_, view));
 }
 
+/// Views of one size and surface are rasterised once for all of them.
+Reuse Loop::reuse_in_sheet(const Scene& scene, const ui::SheetSize& at,
+                           const std::vector<ui::SheetSize>& seen) const {
+    const auto shares = [&](const ui::SheetSize& other) {
+        const auto view = std::size_t(other.view);
+        return other.view != at.view && other.size_px == at.size_px && view < sheet_views_.size() &&
+               editor_.reconciler.drawable(view) &&
+               Renderer::same_surface(scene, sheet_scene(view, at.size_px));
+    };
+    return std::ranges::any_of(seen, shares) ? Reuse::Expected : Reuse::IfRepeated;
+}
+
 bool Loop::sheet_is_stale() const {
     const std::size_t views = places_of(*editor_.document.sheet).size();
     return std::ranges::any_of(sheet_seen_, [&](int seen) {
@@ -45,7 +57,7 @@ void Loop::draw_sheet(const std::vector<ui::SheetSize>& seen) {
             shown.target = renderer_.make_target(each.size_px);
             frames_wanted_ = std::max(frames_wanted_, 1);  // this frame still shows the old one
         }
-        renderer_.draw(scene, *shown.target);
+        renderer_.draw(scene, *shown.target, reuse_in_sheet(scene, each, seen));
         shown.drawn = scene;
         shown.has_drawn = true;
         ++shown.times;
@@ -95,7 +107,7 @@ void Loop::draw_view(glm::ivec2 size_px) {
     target_ = target;
     shown_ = quality;
     drew_s_ = now_s;
-    renderer_.draw(scene, *target_);
+    renderer_.draw(scene, *target_, Reuse::IfRepeated);
     drawn_ = scene;
     has_drawn_ = true;
     ++views_;

@@ -65,9 +65,11 @@ ReadyMap load_map(const Registry& registry, const MapRequest& request) {
     std::error_code ignored;
     if (!fs::exists(file, ignored))
         throw std::runtime_error(request.file + ": there is no such file; put it back or locate it.");
-    LoadedImage loaded = import_image(registry, file);
-    ReadyMap ready{.width = loaded.image.width,
-                   .height = loaded.image.height,
+    // Numbers may be averaged by the decoder; colours are averaged as light, normals with their spread.
+    LoadedImage loaded =
+        import_image(registry, file, request.kind == MapKind::Data ? request.finest_side : 0);
+    ReadyMap ready{.width = std::max(loaded.whole_width, loaded.image.width),
+                   .height = std::max(loaded.whole_height, loaded.image.height),
                    .channels = loaded.image.channels,
                    .bits = bits_of(loaded.image.type),
                    .notes = std::move(loaded.notes)};

@@ -113,13 +113,18 @@ Registry builtin_parts() {
          .description = "Scene-linear pictures through OpenEXR",
          .extensions = {"exr"},
          .load = load_image},
+        {.name = "jpeg",
+         .description = "Pictures through libjpeg",
+         .extensions = {"jpg", "jpeg"},
+         .load = load_image,
+         .load_reduced = load_image_reduced},
         {.name = "radiance",
          .description = "Radiance pictures",
          .extensions = {"hdr", "pic"},
          .load = load_image},
         {.name = "openimageio",
          .description = "Pictures through OpenImageIO, loaded when first needed",
-         .extensions = {"jpg", "jpeg", "tif", "tiff", "tga", "bmp"},
+         .extensions = {"tif", "tiff", "tga", "bmp"},
          .load = load_image}};
     registry.mesh_importers = {{.name = "openmesh",
                                 .description = "Meshes through OpenMesh",
@@ -208,10 +213,11 @@ Mesh load_mesh_part(const Registry& registry, const std::string& id, const std::
                              ", or a file that ends in " + either(extensions));
 }
 
-LoadedImage import_image(const Registry& registry, const fs::path& file) {
+LoadedImage import_image(const Registry& registry, const fs::path& file, int least_side) {
     // An unknown extension goes to the first importer, which judges by content.
     const ImageImporter* importer = part_for(registry.image_importers, file);
-    return (importer ? *importer : registry.image_importers.front()).load(file);
+    const ImageImporter& chosen = importer ? *importer : registry.image_importers.front();
+    return least_side > 0 && chosen.load_reduced ? chosen.load_reduced(file, least_side) : chosen.load(file);
 }
 
 const ImageExporter& image_exporter(const Registry& registry, const fs::path& file) {

@@ -47,6 +47,8 @@ struct ImageImporter {
     std::string description;
     std::vector<std::string> extensions;
     std::function<LoadedImage(const std::filesystem::path&)> load;
+    /// May give it smaller, no side shorter than that; may be empty.
+    std::function<LoadedImage(const std::filesystem::path&, int least_side)> load_reduced = {};
 };
 struct MeshImporter {
     std::string name;
@@ -98,7 +100,7 @@ LoadedLight load_light(const Registry& registry, const std::string& id);
 /// By id ("sphere") or file path; likewise.
 Mesh load_mesh_part(const Registry& registry, const std::string& id, const std::stop_token& stop = {});
 /// By the file's extension; likewise.
-LoadedImage import_image(const Registry& registry, const std::filesystem::path& file);
+LoadedImage import_image(const Registry& registry, const std::filesystem::path& file, int least_side = 0);
 
 /// The exporter of the file's extension; throws std::runtime_error that names what there is, before anything
 /// is computed.

@@ -26,12 +26,13 @@ std::vector<MapSource> map_sources(const Material& material, const fs::path& pre
     return sources;
 }
 
-LoadedImage load_map(const Registry& registry, const MapSource& source) {
+LoadedImage load_map(const Registry& registry, const MapSource& source, int finest_side) {
     if (source.file.empty())
         throw std::runtime_error(
             "the map '" + source.text +
             "' is a web address, which is never fetched; save the picture beside the preset");
-    return import_image(registry, source.file);
+    // Numbers may be averaged by the decoder; colours are averaged as light, normals with their spread.
+    return import_image(registry, source.file, source.kind == MapKind::Data ? finest_side : 0);
 }
 
 namespace {
@@ -105,7 +106,7 @@ const SceneLoader::Map& SceneLoader::map(const MapSource& source, const std::str
     options_.progress("loading " + name, 0.0f);
     LoadedImage loaded;
     try {
-        loaded = load_map(registry_, source);
+        loaded = load_map(registry_, source, side);
     } catch (const std::runtime_error& error) {
         if (!options_.allow_missing_maps)
             throw std::runtime_error(preset + ": " + error.what() +

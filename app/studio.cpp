@@ -1,6 +1,7 @@
 #include "app/studio.h"
 
 #include "app/paths.h"
+#include "app/program_store_io.h"
 #include "renderer/reference.h"
 
 #include <array>
@@ -36,7 +37,10 @@ Studio::Studio(const Registry& registry, const SceneOptions& options)
                    say(sentence);
                },
            .progress = [this](const std::string& what, float fraction) { progress.show(what, fraction); }}),
-      samples_(options.samples) {}
+      samples_(options.samples) {
+    renderer.set_reuse(options.skip);
+    if (options.skip) renderer.set_program_store(program_store_in(cache_folder() / "programs"));
+}
 
 TargetHandle Studio::draw_reference(const Scene& scene, glm::ivec2 size_px) {
     TargetHandle target = renderer.make_target(size_px, 1, TargetPrecision::Full);
@@ -53,12 +57,12 @@ TargetHandle Studio::draw_reference(const Scene& scene, glm::ivec2 size_px) {
     return target;
 }
 
-Image Studio::picture(const Scene& scene, RenderTarget& target, bool radiance) {
+Image Studio::picture(const Scene& scene, RenderTarget& target, bool radiance, Reuse reuse) {
     if (is_reference(scene.view)) {
         const TargetHandle reference = draw_reference(scene, Renderer::size_px(target));
         return radiance ? renderer.read_radiance(*reference) : renderer.read_display(*reference);
     }
-    renderer.draw(scene, target);
+    renderer.draw(scene, target, reuse);
     return radiance ? renderer.read_radiance(target) : renderer.read_display(target);
 }
 

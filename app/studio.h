@@ -18,7 +18,7 @@ struct Studio {
     /// Says notes on standard error and shows progress where a person watches.
     Studio(const Registry& registry, const SceneOptions& options);
     /// Of the target's size; the reference is gathered in a target of its own and says how well it is known.
-    Image picture(const Scene& scene, RenderTarget& target, bool radiance);
+    Image picture(const Scene& scene, RenderTarget& target, bool radiance, Reuse reuse = Reuse::None);
 
 private:
     TargetHandle draw_reference(const Scene& scene, glm::ivec2 size_px);

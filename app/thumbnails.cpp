@@ -223,7 +223,7 @@ void Thumbnails::State::draw() {
     for (int i = 0; i < kMapSlots; ++i)
         if (found.maps[i]) scene.maps[i] = Renderer::begin_upload(found.maps[i]->levels).finish();
     const TargetHandle target = renderer.make_target({kSidePx, kSidePx});
-    renderer.draw(scene, *target);
+    renderer.draw(scene, *target, Reuse::IfRepeated);  // most show one sphere
     const auto picture = std::make_shared<Image>(renderer.read_display(*target));
     arrived(key, *picture);
     jobs.start("", [picture, file = found.cache_file](JobContext&) -> Jobs::Done {

@@ -1,24 +1,14 @@
 #include "renderer/renderer.h"
 
-#include "renderer/brdf.h"
-#include "renderer/features.h"
-#include "renderer/gl/brdf_table.h"
-#include "renderer/gl/environment.h"
 #include "renderer/gl/mesh.h"
-#include "renderer/gl/program.h"
 #include "renderer/gl/reference.h"
-#include "renderer/gl/target.h"
 #include "renderer/gl/texture.h"
-#include "renderer/lobes/lobe_table.h"
+#include "renderer/renderer_state.h"
 #include "renderer/tonemap.h"
-#include "renderer/uniforms.h"
 
 #include <algorithm>
-#include <bitset>
-#include <cassert>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -35,197 +25,7 @@ std::shared_ptr<const T> borrowed(const T& value) {
     return {std::shared_ptr<const T>{}, &value};
 }
 
-gl::Texture make_brdf_texture() {
-    assert(brdf::kAlbedoTableSize == float(kShadingTableSize));
-    const gl::KeepTextureBindings keep;
-    gl::Texture texture = gl::Texture::make();
-    glBindTexture(GL_TEXTURE_2D, texture.name());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG16, kShadingTableSize, kShadingTableSize, 0, GL_RG, GL_UNSIGNED_SHORT,
-                 embedded::brdf_table().data());
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    return texture;
-}
-
-/// Slices: one tap F0 = 1, one tap F0 = 0.04, two taps likewise, the two taps' weights likewise.
-gl::Texture make_lobe_texture() {
-    constexpr int size = kLobeTableSize;
-    std::vector<glm::vec4> texels(std::size_t(6) * size * size);
-    for (int i = 0; i < size * size; ++i) {
-        for (int metal = 0; metal < 2; ++metal) {
-            const LobeNode& node = lobe_nodes()[i].by_reflectance[metal];
-            const auto put = [&](int slice, glm::vec4 texel) {
-                texels[std::size_t(slice + metal) * size * size + i] = texel;
-            };
-            put(0, {node.one.kappa, node.one.log2_ratio, node.one_irradiance, 0.0f});
-            put(2, {node.two[0].kappa, node.two[0].log2_ratio, node.two[1].kappa, node.two[1].log2_ratio});
-            put(4, {node.second_weight, node.two_irradiance, 0.0f, 0.0f});
-        }
-    }
-    const gl::KeepTextureBindings keep;
-    gl::Texture texture = gl::Texture::make();
-    glBindTexture(GL_TEXTURE_3D, texture.name());
-    glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA32F, size, size, 6, 0, GL_RGBA, GL_FLOAT, texels.data());
-    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-        glTexParameteri(GL_TEXTURE_3D, axis, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAX_LEVEL, 0);
-    return texture;
-}
-
-/// No light at all, for scenes that have none yet.
-EnvironmentHandle make_darkness() {
-    const CubeMap black{1, std::vector<glm::vec3>(6, glm::vec3(0.0f))};
-    BakedEnvironment baked;
-    baked.levels = {{1.0f, black}};
-    baked.irradiance = black;
-    Environment environment;
-    environment.width = environment.height = 1;
-    environment.radiance = {glm::vec3(0.0f)};
-    return Renderer::begin_upload(std::make_shared<PreparedLight>(PreparedLight{
-                                      make_panorama_levels(environment), make_light_levels(baked)}))
-        .finish();
-}
-
-LightLayout layout_of(const GpuEnvironment& environment) {
-    return {environment.panorama_scale,    environment.levels_scale, environment.irradiance_scale,
-            environment.texels_per_radian, environment.layers,       environment.roughness,
-            environment.sharpest,          environment.lights,       environment.panorama_lights};
-}
-
-/// How many lights' colours the panorama's alpha needs (light.glsl).
-std::size_t colored_lights(const GpuEnvironment& environment) {
-    if (environment.panorama_lights.empty()) return 0;
-    return environment.lights.empty() ? environment.panorama_lights.size() : environment.lights.size();
-}
-
-Features features_for(const Scene& scene, const GpuEnvironment& environment) {
-    std::bitset<kMapSlots> bound;
-    for (std::size_t i = 0; i < scene.maps.size(); ++i) bound[i] = scene.maps[i] != nullptr;
-    return features_of(scene.material, bound, scene.view, environment.sharpest);
-}
-
-template <class Block>
-void upload_block(const gl::Buffer& buffer, GLuint slot, const Block& block) {
-    glBindBuffer(GL_UNIFORM_BUFFER, buffer.name());
-    glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
-    glBindBufferBase(GL_UNIFORM_BUFFER, slot, buffer.name());
-}
-
-void bind_texture(GLuint unit, GLenum kind, const gl::Texture& texture) {
-    glActiveTexture(GL_TEXTURE0 + unit);
-    glBindSampler(unit, 0);
-    glBindTexture(kind, texture.name());
-}
-
-void set_switches() {
-    for (const GLenum off : {GL_BLEND, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_FRAMEBUFFER_SRGB,
-                             GL_RASTERIZER_DISCARD, GL_COLOR_LOGIC_OP, GL_SAMPLE_ALPHA_TO_COVERAGE})
-        glDisable(off);
-    for (const GLenum on : {GL_DEPTH_TEST, GL_MULTISAMPLE, GL_TEXTURE_CUBE_MAP_SEAMLESS}) glEnable(on);
-    glDepthFunc(GL_LEQUAL);
-    glDepthMask(GL_TRUE);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-}
-
 }  // namespace
-
-struct Renderer::State {
-    WorkLedger work;
-    std::map<Features, gl::Program> surfaces;
-    std::map<std::pair<Features, int>, gl::Program> references;  ///< by lights: 0, 1, more
-    std::map<std::pair<Features, int>, gl::Program> rivals;      ///< by samples
-    gl::Program depth;                                           ///< of a mesh, nothing else
-    std::array<gl::Program, 2> backgrounds;                      ///< sharp, blurred
-    std::map<std::pair<int, int>, gl::Program> displays;         ///< by samples and tone mapper
-    gl::VertexArray nothing = gl::VertexArray::make();           ///< for triangles made in the shader
-    gl::Buffer frame_rows = gl::Buffer::make();
-    gl::Buffer material_rows = gl::Buffer::make();
-    gl::Texture brdf = make_brdf_texture();
-    gl::Texture lobes = make_lobe_texture();
-    EnvironmentHandle darkness = make_darkness();
-
-    gl::Program compiled(const char* vertex, const char* fragment, const std::vector<std::string>& defines);
-    void count_draw(std::uint64_t triangles, std::uint64_t calls = 1);
-    const gl::Program& surface(Features features);
-    const gl::Program& reference(Features features, std::size_t lights);
-    const gl::Program& rival(Features features, int samples);
-    const gl::Program& depth_only();
-    const gl::Program& background(Background background);
-    const gl::Program& display(int samples, Tonemap tonemap);
-    void bind_light(const GpuEnvironment& environment) const;
-    void draw_radiance(const Scene& scene, const GpuEnvironment& environment, RenderTarget& target,
-                       std::optional<int> rival_samples = {});
-    void bind_maps(const Scene& scene) const;
-    void draw_background(Background background);
-    void draw_reference(const Scene& scene, const GpuEnvironment& environment, ReferenceTarget& target,
-                        const ReferenceSlice& slice);
-    void draw_display(const View& view, const RenderTarget& target);
-};
-
-gl::Program Renderer::State::compiled(const char* vertex, const char* fragment,
-                                      const std::vector<std::string>& defines) {
-    ++work.programs_compiled;
-    return gl::make_program(gl::embedded_shader(vertex), gl::embedded_shader(fragment), defines);
-}
-
-void Renderer::State::count_draw(std::uint64_t triangles, std::uint64_t calls) {
-    work.draw_calls += calls;
-    work.triangles_drawn += triangles;
-}
-
-const gl::Program& Renderer::State::surface(Features features) {
-    gl::Program& program = surfaces[features];
-    if (!program) program = compiled("mesh.vert.glsl", "mesh.frag.glsl", defines_of(features));
-    return program;
-}
-
-const gl::Program& Renderer::State::reference(Features features, std::size_t lights) {
-    const int kind = int(std::min<std::size_t>(lights, 2));
-    gl::Program& program = references[{features, kind}];
-    if (program) return program;
-    std::vector<std::string> defines = defines_of(features);
-    defines.push_back("PANORAMA_LIGHTS=" + std::to_string(kind));
-    program = compiled("mesh.vert.glsl", "reference.frag.glsl", defines);
-    return program;
-}
-
-const gl::Program& Renderer::State::rival(Features features, int samples) {
-    gl::Program& program = rivals[{features, samples}];
-    if (program) return program;
-    std::vector<std::string> defines = defines_of(features);
-    defines.push_back("RIVAL_SAMPLES=" + std::to_string(samples));
-    program = compiled("mesh.vert.glsl", "rivals.frag.glsl", defines);
-    return program;
-}
-
-const gl::Program& Renderer::State::depth_only() {
-    if (!depth) depth = compiled("mesh.vert.glsl", "depth.frag.glsl", {});
-    return depth;
-}
-
-const gl::Program& Renderer::State::background(Background background) {
-    const bool blurred = background == Background::Blurred;
-    gl::Program& program = backgrounds[blurred ? 1 : 0];
-    if (!program)
-        program = compiled("background.vert.glsl", "background.frag.glsl",
-                           blurred ? std::vector<std::string>{"HAS_BLUR"} : std::vector<std::string>{});
-    return program;
-}
-
-const gl::Program& Renderer::State::display(int samples, Tonemap tonemap) {
-    gl::Program& program = displays[{samples, int(tonemap)}];
-    if (program) return program;
-    std::vector<std::string> defines{"TONEMAP=" + std::to_string(int(tonemap))};
-    if (samples > 1) defines.push_back("SAMPLES=" + std::to_string(samples));
-    program = compiled("display.vert.glsl", "display.frag.glsl", defines);
-    return program;
-}
 
 void Renderer::State::bind_light(const GpuEnvironment& environment) const {
     bind_texture(gl::kPanoramaUnit, GL_TEXTURE_2D, *environment.panorama);
@@ -250,6 +50,7 @@ void Renderer::State::draw_background(Background shown) {
 
 void Renderer::State::draw_radiance(const Scene& scene, const GpuEnvironment& environment,
                                     RenderTarget& target, std::optional<int> rival_samples) {
+    target.stored.surfaces.reset();
     glBindFramebuffer(GL_FRAMEBUFFER, target.radiance_framebuffer.name());
     glViewport(0, 0, target.size.x, target.size.y);
     set_switches();
@@ -314,9 +115,16 @@ void Renderer::State::draw_reference(const Scene& scene, const GpuEnvironment& e
 void Renderer::State::draw_display(const View& view, const RenderTarget& target) {
     glBindFramebuffer(GL_FRAMEBUFFER, target.display_framebuffer.name());
     glDisable(GL_DEPTH_TEST);
+    glViewport(0, 0, target.size.x, target.size.y);
+    const bool is_stored = target.stored.surfaces != nullptr;
     const gl::Program& program =
-        display(target.samples, is_data_view(view.debug) ? Tonemap::None : view.tonemap);
-    bind_texture(gl::kPictureUnit, target.radiance_kind(), target.radiance);
+        display(target.samples, is_data_view(view.debug) ? Tonemap::None : view.tonemap, is_stored);
+    if (is_stored) {
+        bind_texture(gl::kPictureUnit, GL_TEXTURE_2D, target.stored.colors);
+        gl::bind_surface_pixels(*target.stored.surfaces);
+    } else {
+        bind_texture(gl::kPictureUnit, target.radiance_kind(), target.radiance);
+    }
     glUseProgram(program.name());
     const glm::vec3 plain = glm::clamp(view.plain_color, 0.0f, 1.0f);
     glUniform3f(glGetUniformLocation(program.name(), "plain"), plain.x, plain.y, plain.z);
@@ -397,13 +205,17 @@ TargetHandle Renderer::make_target(glm::ivec2 size_px, int samples, TargetPrecis
         gl::make_render_target(size_px, samples, precision == TargetPrecision::Full));
 }
 
-void Renderer::draw(const Scene& scene, RenderTarget& target) {
+void Renderer::draw(const Scene& scene, RenderTarget& target, Reuse reuse) {
     const gl::KeepDrawState keep;
     const GpuEnvironment& environment = scene.environment ? *scene.environment : *state_->darkness;
     Scene shown = scene;
     if (!scene.environment) shown.view.background = Background::Plain;
     target.plain = scene.view.plain_color;
-    state_->draw_radiance(shown, environment, target);
+    auto surfaces = state_->surfaces_for(shown, target, features_for(shown, environment), reuse);
+    if (surfaces)
+        state_->shade_stored(shown, environment, target, std::move(surfaces));
+    else
+        state_->draw_radiance(shown, environment, target);
     state_->draw_display(shown.view, target);
     ++state_->work.views_drawn;
     state_->work.pixels_drawn += std::uint64_t(target.size.x) * std::uint64_t(target.size.y);
@@ -450,10 +262,19 @@ void Renderer::prepare(const Scene& scene) {
 std::uintptr_t Renderer::display_texture(const RenderTarget& target) { return target.display.name(); }
 glm::ivec2 Renderer::size_px(const RenderTarget& target) { return target.size; }
 Image Renderer::read_display(const RenderTarget& target) { return gl::read_display_pixels(target); }
-Image Renderer::read_radiance(const RenderTarget& target) { return gl::read_radiance_pixels(target); }
+Image Renderer::read_radiance(const RenderTarget& target) {
+    return gl::read_radiance_pixels(target, [&] { state_->draw_resolved(target); });
+}
+
+void Renderer::set_program_store(ProgramStore store) { state_->programs = std::move(store); }
+
+void Renderer::set_reuse(bool allowed) {
+    state_->reuse = allowed;
+    if (!allowed) state_->kept_surfaces.clear();
+}
 
 Renderer::PixelValue Renderer::read_pixel(const RenderTarget& target, glm::ivec2 pixel) {
-    const gl::PixelValue value = gl::read_pixel_value(target, pixel);
+    const gl::PixelValue value = gl::read_pixel_value(target, pixel, [&] { state_->draw_resolved(target); });
     return {value.radiance, value.display};
 }
 

@@ -11,6 +11,7 @@
 #include "renderer/core/image.h"
 #include "renderer/core/ledger.h"
 #include "renderer/core/mesh.h"
+#include "renderer/core/program_store.h"
 #include "renderer/core/view.h"
 #include "renderer/gl/light_levels.h"
 #include "renderer/gl/mesh_prepare.h"
@@ -55,6 +56,15 @@ using TargetHandle = std::shared_ptr<RenderTarget>;
 /// and saving.
 enum class TargetPrecision { Half, Full };
 
+/// Whether a picture's surface is worth being rasterised apart from its light, to be shaded again when only
+/// values, light or view change, or by other views that show the same mesh, camera and maps. The picture is
+/// the same either way.
+enum class Reuse {
+    None,
+    IfRepeated,  ///< when the same surface was drawn a moment ago
+    Expected     ///< more pictures of it follow
+};
+
 /// Something large on its way to the GPU, a portion a frame, so that the window does not stall.
 template <class T>
 struct Upload {
@@ -94,8 +104,14 @@ public:
     /// Shading::Reference is drawn as split sum here: the reference gathers over many draws (reference.h).
     /// Without an environment only emission and a plain background are seen, without a mesh only the
     /// background. The plain background is shown as it is: neither exposure nor tone mapping touch it.
-    void draw(const Scene& scene, RenderTarget& target);
-    /// The same twice; the milliseconds that the GPU took for the shorter one.
+    void draw(const Scene& scene, RenderTarget& target, Reuse reuse = Reuse::None);
+    /// From now on programs are taken from there where the driver agrees, and given there when compiled.
+    void set_program_store(ProgramStore store);
+    /// False: every picture is rasterised anew, for comparison.
+    void set_reuse(bool allowed);
+    /// Whether both show one surface at one size: what draw() can shade without rasterising it again.
+    static bool same_surface(const Scene& a, const Scene& b);
+    /// draw() twice; the milliseconds that the GPU took for the shorter one.
     double timed_draw(const Scene& scene, RenderTarget& target);
 
     /// Another way to shade, kept to be measured against: run-time filtered importance sampling with so many

@@ -1,5 +1,5 @@
-// What image_io and the decoders of single formats say to each other. PNG and OpenEXR are decoded in the
-// program; the other formats by the module patina_images, which exports such a codec. Decoders throw
+// What image_io and the decoders of single formats say to each other. PNG, JPEG and OpenEXR are decoded in
+// the program; the other formats by the module patina_images, which exports such a codec. Decoders throw
 // std::runtime_error with what follows the file's name in a sentence ("is damaged (…); copy or export it
 // again").
 #pragma once
@@ -21,7 +21,8 @@ struct ImageSource {
     const std::filesystem::path& file;
     ImageFormat format = ImageFormat::Unknown;
     std::span<const std::byte>
-        bytes;  ///< the whole file; empty where only its header is wanted, read from file
+        bytes;           ///< the whole file; empty where only its header is wanted, read from file
+    int least_side = 0;  ///< may be decoded smaller, no side below this; 0: as it is
 };
 
 struct DecodedHeader {
@@ -40,6 +41,8 @@ struct ImageCodec {
 
 const ImageCodec& png_codec();
 const ImageCodec& exr_codec();
+/// Decodes what jpeg_is_plain says.
+const ImageCodec& jpeg_codec();
 /// The whole file. image is U8 or U16 for a PNG, F32 for an EXR (ZIP).
 std::vector<std::byte> encode_png(const Image& image, const ImageMetadata& metadata);
 std::vector<std::byte> encode_exr(const Image& image, const ImageMetadata& metadata);

@@ -107,6 +107,18 @@ std::string jpeg_problem(Bytes bytes) {
     return std::string(kCutShort);
 }
 
+/// Calls see(marker, its place) for each segment before the pixels until it says true.
+template <class See>
+bool any_jpeg_segment(Bytes bytes, See see) {
+    for (std::size_t at = next_jpeg_marker(bytes, 2); at + 4 <= bytes.size();
+         at = next_jpeg_marker(bytes, at + 2 + (byte_at(bytes, at + 2) << 8 | byte_at(bytes, at + 3)))) {
+        const unsigned marker = byte_at(bytes, at + 1);
+        if (see(marker, at)) return true;
+        if (marker == 0xDA) return false;
+    }
+    return false;
+}
+
 /// The first directory of a TIFF: enough to see whether all strips or tiles lie within the file.
 class TiffDirectory {
 public:
@@ -240,6 +252,23 @@ ImageFormat image_format_of_extension(std::string_view extension) {
 }
 
 std::string_view image_format_id(ImageFormat format) { return kIds[static_cast<std::size_t>(format)]; }
+
+bool jpeg_is_plain(Bytes bytes) {
+    return any_jpeg_segment(bytes, [&](unsigned marker, std::size_t at) {
+        const bool frame =
+            marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+        if (!frame || at + 10 > bytes.size()) return false;
+        const unsigned components = byte_at(bytes, at + 9);
+        return components == 1 || components == 3;
+    });
+}
+
+bool jpeg_has_camera_data(Bytes bytes) {
+    return any_jpeg_segment(bytes, [&](unsigned marker, std::size_t at) {
+        return marker == 0xE1 && at + 10 <= bytes.size() &&
+               std::memcmp(bytes.data() + at + 4, "Exif", 5) == 0;
+    });
+}
 
 bool png_has_camera_data(Bytes bytes) {
     for (std::size_t at = 8; at + 12 <= bytes.size();) {

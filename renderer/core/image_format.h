@@ -32,6 +32,11 @@ std::optional<PromisedSize> promised_size(ImageFormat format, std::span<const st
 /// Whether a PNG carries EXIF data (camera, orientation) before its pixels. A part of the file will do.
 bool png_has_camera_data(std::span<const std::byte> bytes);
 
+/// Whether a JPEG is grey or of three colours, as far as the part of the file at hand tells.
+bool jpeg_is_plain(std::span<const std::byte> bytes);
+/// Whether a JPEG carries EXIF data. A part of the file will do.
+bool jpeg_has_camera_data(std::span<const std::byte> bytes);
+
 /// What is wrong with the bytes as a whole, as far as the format's structure tells without decoding; empty
 /// where nothing.
 std::string image_structure_problem(ImageFormat format, std::span<const std::byte> bytes);

@@ -54,10 +54,11 @@ const ImageCodec& module_codec(ImageFormat format) {
     }
 }
 
-/// Camera data in a PNG is read by the module, which knows its tags.
+/// Camera data in a PNG or in the header of a JPEG is read by the module, which knows its tags.
 const ImageCodec& codec_for(ImageFormat format, Bytes bytes) {
     if (format == ImageFormat::OpenExr) return exr_codec();
     if (format == ImageFormat::Png && !png_has_camera_data(bytes)) return png_codec();
+    if (format == ImageFormat::Jpeg && jpeg_is_plain(bytes)) return jpeg_codec();
     return module_codec(format);
 }
 
@@ -92,13 +93,14 @@ LoadedImage load_radiance(const fs::path& file, Bytes bytes) {
     return {.image = std::move(picture.image), .notes = std::move(picture.notes)};
 }
 
-LoadedImage load_decoded(const fs::path& file, ImageFormat format, Bytes bytes) {
+LoadedImage load_decoded(const fs::path& file, ImageFormat format, Bytes bytes, int least_side) {
     if (const std::string problem = image_structure_problem(format, bytes); !problem.empty())
         fail(file, problem);
     check_promise(file, format, bytes);
     return named(file, [&] {
         DecodedImage decoded =
-            codec_for(format, bytes).decode({.file = file, .format = format, .bytes = bytes});
+            codec_for(format, bytes)
+                .decode({.file = file, .format = format, .bytes = bytes, .least_side = least_side});
         decoded.loaded.image = oriented(std::move(decoded.loaded.image), decoded.orientation);
         return std::move(decoded.loaded);
     });
@@ -107,8 +109,11 @@ LoadedImage load_decoded(const fs::path& file, ImageFormat format, Bytes bytes) 
 /// start: the first bytes of the file.
 DecodedHeader decoded_header(const fs::path& file, ImageFormat format, Bytes start) {
     check_promise(file, format, start);
-    return named(
-        file, [&] { return codec_for(format, start).header({.file = file, .format = format, .bytes = {}}); });
+    return named(file, [&] {
+        const bool camera_data = format == ImageFormat::Jpeg && jpeg_has_camera_data(start);
+        const ImageCodec& codec = camera_data ? module_codec(format) : codec_for(format, start);
+        return codec.header({.file = file, .format = format, .bytes = {}});
+    });
 }
 
 void note_extension(const fs::path& file, ImageFormat format, std::vector<std::string>& notes) {
@@ -132,11 +137,13 @@ ImageInfo load_image_info(const fs::path& file) {
             .format = "hdr"};
 }
 
-LoadedImage load_image(const fs::path& file) {
+LoadedImage load_image(const fs::path& file) { return load_image_reduced(file, 0); }
+
+LoadedImage load_image_reduced(const fs::path& file, int least_side) {
     const std::vector<std::byte> bytes = read_file(file);
     const ImageFormat format = known_format(file, bytes);
-    LoadedImage loaded =
-        format == ImageFormat::Hdr ? load_radiance(file, bytes) : load_decoded(file, format, bytes);
+    LoadedImage loaded = format == ImageFormat::Hdr ? load_radiance(file, bytes)
+                                                    : load_decoded(file, format, bytes, least_side);
     note_extension(file, format, loaded.notes);
     return loaded;
 }

@@ -1,5 +1,5 @@
-// Pictures from and to disk. PNG, EXR and Radiance HDR are decoded in the program; the other formats by the
-// module patina_images, loaded by the first picture that needs it (on that thread). Every function throws
+// Pictures from and to disk. PNG, JPEG, EXR and Radiance HDR are decoded in the program; the other formats by
+// the module patina_images, loaded by the first picture that needs it (on that thread). Every function throws
 // std::runtime_error with one sentence that names the file and the way out; nothing is half written.
 #pragma once
 
@@ -25,7 +25,8 @@ struct ImageInfo {
 
 struct LoadedImage {
     Image image;
-    std::vector<std::string> notes;  ///< what was tolerated, one sentence each
+    int whole_width = 0, whole_height = 0;  ///< of the file, where the image was decoded smaller; else 0
+    std::vector<std::string> notes;         ///< what was tolerated, one sentence each
 };
 
 /// Text stored beside the pixels (PNG text chunks, EXR attributes), in order. Names of one's own, such as
@@ -42,6 +43,9 @@ ImageInfo load_image_info(const std::filesystem::path& file);
 /// of several parts the first with colours; palettes are expanded; CMYK becomes RGB; alpha is left as stored,
 /// not multiplied in; camera orientation is honoured; an EXR comes in its display window.
 LoadedImage load_image(const std::filesystem::path& file);
+/// The same, at half, a quarter or an eighth of its size where the format can decode that at once (JPEG,
+/// whose blocks it averages) and no side gets shorter than least_side (≥ 1).
+LoadedImage load_image_reduced(const std::filesystem::path& file, int least_side);
 
 /// Text and numbers stored in the header, as text.
 ImageMetadata load_image_metadata(const std::filesystem::path& file);

@@ -44,8 +44,10 @@ struct WorkLedger {
     std::uint64_t tangent_frames = 0;  ///< vertices that were given one
     std::uint64_t mesh_bytes_uploaded = 0;
     // Pictures.
-    std::uint64_t frames_shown = 0;  ///< of the window
-    std::uint64_t views_drawn = 0;   ///< pictures of a scene, thumbnails included
+    std::uint64_t frames_shown = 0;         ///< of the window
+    std::uint64_t views_drawn = 0;          ///< pictures of a scene, thumbnails included
+    std::uint64_t surfaces_rasterised = 0;  ///< to be shaded more than once
+    std::uint64_t views_from_surfaces = 0;  ///< pictures shaded from one of those
     std::uint64_t draw_calls = 0;
     std::uint64_t triangles_drawn = 0;
     std::uint64_t pixels_drawn = 0;  ///< of the pictures, whatever lies in them
@@ -91,6 +93,9 @@ inline constexpr std::array kLedgerRows{
               LedgerUnit::Bytes},
     LedgerRow{"frames_shown", "Pictures", "Frames of the window", &WorkLedger::frames_shown},
     LedgerRow{"views_drawn", "Pictures", "Pictures drawn", &WorkLedger::views_drawn},
+    LedgerRow{"surfaces_rasterised", "Pictures", "Surfaces rasterised", &WorkLedger::surfaces_rasterised},
+    LedgerRow{"views_from_surfaces", "Pictures", "Pictures shaded from those",
+              &WorkLedger::views_from_surfaces},
     LedgerRow{"draw_calls", "Pictures", "Draw calls", &WorkLedger::draw_calls},
     LedgerRow{"triangles_drawn", "Pictures", "Triangles drawn", &WorkLedger::triangles_drawn},
     LedgerRow{"pixels_drawn", "Pictures", "Pixels of pictures", &WorkLedger::pixels_drawn},

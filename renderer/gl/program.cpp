@@ -1,7 +1,12 @@
 #include "renderer/gl/program.h"
 
+#include "renderer/core/hash.h"
+
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
 #include <stdexcept>
 #include <vector>
 
@@ -87,12 +92,8 @@ struct Stage {
     GLuint name;
 };
 
-void compile(const Stage& stage, const ShaderText& shader, std::span<const std::string> defines) {
-    Expansion expansion;
-    expand(shader, expansion);
-    const std::string text =
-        "#version 410 core\n#define PATINA_FN\n" + define_lines(defines) + expansion.text;
-    const char* pointer = text.c_str();
+void compile(const Stage& stage, const ProgramText::Stage& shader) {
+    const char* pointer = shader.text.c_str();
     glShaderSource(stage.name, 1, &pointer, nullptr);
     glCompileShader(stage.name);
     GLint done = GL_FALSE;
@@ -103,17 +104,39 @@ void compile(const Stage& stage, const ShaderText& shader, std::span<const std::
     glGetShaderInfoLog(stage.name, GLsizei(log.size()), &length, log.data());
     log.resize(std::size_t(std::max(length, 0)));
     throw std::runtime_error("The graphics driver refuses the shader " + shader.name + ": " +
-                             readable_log(log, expansion.files));
+                             readable_log(log, shader.files));
+}
+
+ProgramText::Stage expanded(const ShaderText& shader, std::span<const std::string> defines) {
+    Expansion expansion;
+    expand(shader, expansion);
+    return {shader.name, std::move(expansion.files),
+            "#version 410 core\n#define PATINA_FN\n" + define_lines(defines) + expansion.text};
 }
 
 void bind_interface(GLuint program) {
     static constexpr std::pair<const char*, GLuint> samplers[] = {
-        {"panorama_map", kPanoramaUnit},     {"level_maps", kLevelsUnit},
-        {"irradiance_map", kIrradianceUnit}, {"brdf_table", kBrdfUnit},
-        {"albedo_map", kFirstMapUnit + 0},   {"roughness_map", kFirstMapUnit + 1},
-        {"metallic_map", kFirstMapUnit + 2}, {"ao_map", kFirstMapUnit + 3},
-        {"normal_map", kFirstMapUnit + 4},   {"emission_map", kFirstMapUnit + 5},
-        {"lobe_table", kLobesUnit},          {"picture", kPictureUnit},
+        {"panorama_map", kPanoramaUnit},
+        {"level_maps", kLevelsUnit},
+        {"irradiance_map", kIrradianceUnit},
+        {"brdf_table", kBrdfUnit},
+        {"albedo_map", kFirstMapUnit + 0},
+        {"roughness_map", kFirstMapUnit + 1},
+        {"metallic_map", kFirstMapUnit + 2},
+        {"ao_map", kFirstMapUnit + 3},
+        {"normal_map", kFirstMapUnit + 4},
+        {"emission_map", kFirstMapUnit + 5},
+        {"lobe_table", kLobesUnit},
+        {"picture", kPictureUnit},
+        {"stored_normals", kFirstStoredUnit + 0},
+        {"stored_views", kFirstStoredUnit + 1},
+        {"stored_turns", kFirstStoredUnit + 2},
+        {"stored_colors", kFirstStoredUnit + 3},
+        {"stored_scalars", kFirstStoredUnit + 4},
+        {"stored_emissions", kFirstStoredUnit + 5},
+        {"fragment_places", kFragmentPlacesUnit},
+        {"fragment_of_pixel", kFragmentOfPixelUnit},
+        {"fragments_of_samples", kFragmentsOfSamplesUnit},
     };
     GLint previous = 0;
     glGetIntegerv(GL_CURRENT_PROGRAM, &previous);
@@ -140,18 +163,27 @@ ShaderText embedded_shader(std::string_view name) {
     return {std::string(name), std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size())};
 }
 
+ProgramText::ProgramText(const ShaderText& vertex_shader, const ShaderText& fragment_shader,
+                         std::span<const std::string> defines)
+    : vertex(expanded(vertex_shader, defines)), fragment(expanded(fragment_shader, defines)) {}
+
 Program make_program(const ShaderText& vertex, const ShaderText& fragment,
                      std::span<const std::string> defines) {
+    return make_program(ProgramText(vertex, fragment, defines));
+}
+
+Program make_program(const ProgramText& text) {
     const Stage vertex_stage(GL_VERTEX_SHADER);
     const Stage fragment_stage(GL_FRAGMENT_SHADER);
-    compile(vertex_stage, vertex, defines);
-    compile(fragment_stage, fragment, defines);
+    compile(vertex_stage, text.vertex);
+    compile(fragment_stage, text.fragment);
     Program program = Program::make();
     glAttachShader(program.name(), vertex_stage.name);
     glAttachShader(program.name(), fragment_stage.name);
     static constexpr const char* attributes[] = {"vertex_position", "vertex_normal", "vertex_uv",
                                                  "vertex_tangent"};
     for (GLuint i = 0; i < 4; ++i) glBindAttribLocation(program.name(), i, attributes[i]);
+    glProgramParameteri(program.name(), GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
     glLinkProgram(program.name());
     GLint done = GL_FALSE;
     glGetProgramiv(program.name(), GL_LINK_STATUS, &done);
@@ -160,11 +192,72 @@ Program make_program(const ShaderText& vertex, const ShaderText& fragment,
         GLsizei length = 0;
         glGetProgramInfoLog(program.name(), GLsizei(log.size()), &length, log.data());
         log.resize(std::size_t(std::max(length, 0)));
-        throw std::runtime_error("The graphics driver cannot link " + vertex.name + " with " + fragment.name +
-                                 ": " + log.substr(0, log.find('\n')));
+        throw std::runtime_error("The graphics driver cannot link " + text.vertex.name + " with " +
+                                 text.fragment.name + ": " + log.substr(0, log.find('\n')));
     }
     glDetachShader(program.name(), vertex_stage.name);
     glDetachShader(program.name(), fragment_stage.name);
+    bind_interface(program.name());
+    return program;
+}
+
+std::string program_key(const ProgramText& text) {
+    GLint formats = 0;
+    glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
+    if (formats < 1) return {};
+    std::string all;
+    for (const GLenum each : {GL_VENDOR, GL_RENDERER, GL_VERSION}) {
+        const auto* const word = reinterpret_cast<const char*>(glGetString(each));
+        all.append(word ? word : "").push_back('\n');
+    }
+    all += text.vertex.text + text.fragment.text;
+    char name[48];
+    std::snprintf(name, sizeof name, "%016llx-%zx",
+                  static_cast<unsigned long long>(hash_bytes(std::as_bytes(std::span(all)))), all.size());
+    return name;
+}
+
+namespace {
+/// Before what the driver gave.
+struct StoredHeader {
+    std::uint32_t magic = 0x31475050;  ///< "PPG1"
+    std::uint32_t format = 0;
+    std::uint64_t hash = 0;
+};
+}  // namespace
+
+std::vector<std::byte> to_bytes(const Program& program) {
+    GLint size = 0;
+    glGetProgramiv(program.name(), GL_PROGRAM_BINARY_LENGTH, &size);
+    if (size <= 0) return {};
+    StoredHeader header;
+    std::vector<std::byte> bytes(sizeof header + std::size_t(size));
+    GLsizei written = 0;
+    GLenum format = 0;
+    glGetProgramBinary(program.name(), size, &written, &format, bytes.data() + sizeof header);
+    if (written <= 0) return {};
+    bytes.resize(sizeof header + std::size_t(written));
+    header.format = format;
+    header.hash = hash_bytes(std::span(bytes).subspan(sizeof header));
+    std::memcpy(bytes.data(), &header, sizeof header);
+    return bytes;
+}
+
+Program program_from(std::span<const std::byte> bytes) {
+    StoredHeader header;
+    const StoredHeader expected;
+    if (bytes.size() <= sizeof header) return {};
+    std::memcpy(&header, bytes.data(), sizeof header);
+    const std::span<const std::byte> own = bytes.subspan(sizeof header);
+    if (header.magic != expected.magic || header.hash != hash_bytes(own)) return {};
+    Program program = Program::make();
+    glProgramBinary(program.name(), header.format, own.data(), GLsizei(own.size()));
+    GLint done = GL_FALSE;
+    glGetProgramiv(program.name(), GL_LINK_STATUS, &done);
+    if (done != GL_TRUE) {
+        glGetError();  // of another driver's format
+        return {};
+    }
     bind_interface(program.name());
     return program;
 }

@@ -91,10 +91,17 @@ bool make_display(RenderTarget& target) {
 /// Radiance and coverage of the whole picture, bottom row first; multisampled ones are averaged by the
 /// driver.
 /// The pixels of a rectangle, its corner the lower left one, samples put together.
-std::vector<glm::vec4> read_resolved(const RenderTarget& target, glm::ivec2 corner, glm::ivec2 size) {
+std::vector<glm::vec4> read_resolved(const RenderTarget& target, glm::ivec2 corner, glm::ivec2 size,
+                                     const std::function<void()>& resolve) {
     RenderTarget single;
     GLuint source = target.radiance_framebuffer.name();
-    if (target.samples > 1) {
+    if (target.stored.surfaces) {
+        single.size = target.size;
+        single.full_float = true;
+        if (!make_radiance(single)) refuse(single);
+        resolve();
+        source = single.radiance_framebuffer.name();
+    } else if (target.samples > 1) {
         single.size = size;
         single.full_float = true;
         if (!make_radiance(single)) refuse(single);
@@ -124,7 +131,8 @@ RenderTarget make_render_target(glm::ivec2 size, int samples, bool full_float) {
     target.samples = offered_samples(samples);
     target.full_float = full_float;
     bool is_whole = make_radiance(target) && make_display(target);
-    if (target.samples > 1 && (ran_out_of_memory() || !is_whole)) {  // better with jagged edges than not at all
+    if (target.samples > 1 &&
+        (ran_out_of_memory() || !is_whole)) {  // better with jagged edges than not at all
         target.samples = 1;
         is_whole = make_radiance(target) && make_display(target);
     }
@@ -152,11 +160,11 @@ Image read_display_pixels(const RenderTarget& target) {
     return image;
 }
 
-Image read_radiance_pixels(const RenderTarget& target) {
+Image read_radiance_pixels(const RenderTarget& target, const std::function<void()>& resolve) {
     const KeepDrawState keep;
     const KeepReadState keep_read;
     const KeepTextureBindings keep_textures;
-    const std::vector<glm::vec4> pixels = read_resolved(target, {0, 0}, target.size);
+    const std::vector<glm::vec4> pixels = read_resolved(target, {0, 0}, target.size, resolve);
     Image image = make_image(target.size.x, target.size.y, 3, PixelType::F32);
     auto* out = reinterpret_cast<float*>(image.bytes.data());
     for (int y = 0; y < target.size.y; ++y) {
@@ -169,12 +177,13 @@ Image read_radiance_pixels(const RenderTarget& target) {
     return image;
 }
 
-PixelValue read_pixel_value(const RenderTarget& target, glm::ivec2 pixel) {
+PixelValue read_pixel_value(const RenderTarget& target, glm::ivec2 pixel,
+                            const std::function<void()>& resolve) {
     const KeepDrawState keep;
     const KeepReadState keep_read;
     const KeepTextureBindings keep_textures;
     const glm::ivec2 corner(pixel.x, target.size.y - 1 - pixel.y);
-    const glm::vec4 seen = read_resolved(target, corner, {1, 1}).front();
+    const glm::vec4 seen = read_resolved(target, corner, {1, 1}, resolve).front();
     PixelValue value{glm::vec3(seen) + (1.0f - seen.w) * target.plain, {}};
     std::array<std::uint8_t, 4> display{};
     glBindFramebuffer(GL_READ_FRAMEBUFFER, target.display_framebuffer.name());

@@ -8,7 +8,20 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <functional>
+#include <memory>
+
 namespace patina {
+
+struct GpuSurfaces;
+
+/// Radiance as fragments side by side (surfaces.h).
+struct StoredPicture {
+    std::shared_ptr<const GpuSurfaces> surfaces;  ///< none: the picture was rasterised
+    gl::Texture colors;
+    gl::Framebuffer framebuffer;
+    glm::ivec2 extent{0};
+};
 
 struct RenderTarget {
     glm::ivec2 size{1};
@@ -19,6 +32,7 @@ struct RenderTarget {
     gl::Framebuffer radiance_framebuffer;
     gl::Texture display;
     gl::Framebuffer display_framebuffer;
+    StoredPicture stored;   ///< instead of radiance, where there is one
     glm::vec3 plain{0.0f};  ///< linear colour of what was last not covered
 
     GLenum radiance_kind() const { return samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D; }
@@ -32,13 +46,15 @@ RenderTarget make_render_target(glm::ivec2 size, int samples, bool full_float);
 float largest_radiance(const RenderTarget& target);
 
 Image read_display_pixels(const RenderTarget& target);
-Image read_radiance_pixels(const RenderTarget& target);
+/// resolve: draws the mean of the samples of a stored picture over the picture that is bound.
+Image read_radiance_pixels(const RenderTarget& target, const std::function<void()>& resolve);
 /// Of one pixel, (0,0) the upper left one.
 struct PixelValue {
     glm::vec3 radiance{0.0f};
     glm::ivec3 display{0};  ///< 0…255
 };
-PixelValue read_pixel_value(const RenderTarget& target, glm::ivec2 pixel);
+PixelValue read_pixel_value(const RenderTarget& target, glm::ivec2 pixel,
+                            const std::function<void()>& resolve);
 
 /// Everything a draw changes and other code may rely on, put back at the end.
 class KeepDrawState {

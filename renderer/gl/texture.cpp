@@ -43,19 +43,13 @@ void set_grey_swizzle(int channels) {
     glTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_RGBA, swizzle);
 }
 
-/// Mesa's software renderer blurs what it should magnify when asked for anisotropic filtering, and takes long
-/// to.
-bool is_software() {
-    const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    return name && (std::strstr(name, "llvmpipe") || std::strstr(name, "softpipe"));
-}
-
 void set_map_filter(int levels) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels - 1);
+    // Mesa's software renderer blurs what it should magnify when asked for this, and takes long to.
     if (is_software() || !epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) return;
     GLfloat most = 1.0f;
     glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
@@ -67,6 +61,11 @@ std::size_t row_bytes(const Image& image) {
 }
 
 }  // namespace
+
+bool is_software() {
+    const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    return name && (std::strstr(name, "llvmpipe") || std::strstr(name, "softpipe"));
+}
 
 KeepTextureBindings::KeepTextureBindings() {
     glGetIntegerv(GL_TEXTURE_BINDING_2D, &flat_);

@@ -31,6 +31,9 @@ private:
     GLint flat_ = 0, cube_ = 0, cube_array_ = 0, alignment_ = 4, row_length_ = 0, buffer_ = 0;
 };
 
+/// Whether OpenGL is Mesa's software renderer.
+bool is_software();
+
 /// Since it was last asked.
 bool ran_out_of_memory();
 /// Throws std::runtime_error in one sentence if the driver ran out of memory since it was last asked.
@@ -39,8 +42,8 @@ void check_memory(const char* what);
 /// Writes a mip chain into a texture in portions, coarse levels first.
 class TextureWriter {
 public:
-    /// Allocates; levels wider than the driver takes are skipped, and fine ones for which it has no memory, as
-    /// the map's note then says. Throws std::runtime_error where not even a small picture has a place.
+    /// Allocates; levels wider than the driver takes are skipped, and fine ones for which it has no memory,
+    /// as the map's note then says. Throws std::runtime_error where not even a small picture has a place.
     /// Precondition: a complete chain of 1…4 channels.
     TextureWriter(const std::vector<Image>& levels, bool srgb);
     /// Copies about byte_budget bytes (at least one row); true when all is there.

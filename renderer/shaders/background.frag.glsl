@@ -3,7 +3,11 @@
 #include "brdf.glsl"
 #include "light.glsl"
 
+#ifdef HAS_STORED
+uniform sampler2D stored_views;
+#else
 in vec3 world_ray;
+#endif
 out vec4 picture_color;
 
 #ifdef HAS_BLUR
@@ -22,6 +26,9 @@ vec3 blurred_lights(vec3 d, float alpha2) {
 #endif
 
 void main() {
+#ifdef HAS_STORED
+    vec3 world_ray = texelFetch(stored_views, ivec2(gl_FragCoord.xy), 0).xyz;
+#endif
     vec3 d = environment_direction(normalize(world_ray));
 #ifdef HAS_BLUR
     vec3 color = prefiltered_light(d, log2(ray_up.w)) + blurred_lights(d, square(square(ray_up.w)));

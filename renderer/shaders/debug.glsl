@@ -37,10 +37,10 @@ vec3 stored_color(int view, Surface s, vec3 N, vec3 V, vec2 st) {
     return decode_srgb(uv_checker(map_uv) * (0.4 + 0.6 * clamp(dot(N, V), 0.0, 1.0)));
 }
 
-vec3 debug_color(Surface s, vec3 N, vec3 V, vec2 st) {
+vec3 debug_color(Surface s, Geometry g, vec2 st) {
     int view = int(counts.y);
     if (view == 12) return s.emission;
-    if (view < 10) return stored_color(view, s, N, V, st);
-    Reflected light = reflected_light(s, N, V);
+    if (view < 10) return stored_color(view, s, g.N, g.V, st);
+    Reflected light = reflected_light(s, g);
     return view == 10 ? light.diffuse : light.specular;
 }

@@ -2,11 +2,8 @@
 // then has steps that the eye sees as even, which an average of radiances, dominated by the lamp, has not.
 #include "tonemap.glsl"
 
-#ifdef SAMPLES
-uniform sampler2DMS picture;
-#else
-uniform sampler2D picture;
-#endif
+#include "picture.glsl"
+
 uniform vec3 plain;     // display-linear colour where nothing was drawn
 
 out vec4 display_color;
@@ -24,13 +21,14 @@ vec3 tonemapped(vec4 texel) {
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    vec4 first = texelFetch(picture, at, 0);
+    vec4 first = picture_sample(at, 0);
     vec3 color = tonemapped(first);
 #ifdef SAMPLES
+    int samples = picture_is_one(at) ? 1 : SAMPLES;
     vec3 sum = color;
     bool same = true;
-    for (int i = 1; i < SAMPLES; ++i) {
-        vec4 next = texelFetch(picture, at, i);
+    for (int i = 1; i < samples; ++i) {
+        vec4 next = picture_sample(at, i);
         if (next != first) same = false;
         sum += same ? color : tonemapped(next);
     }

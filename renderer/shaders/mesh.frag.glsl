@@ -3,7 +3,12 @@
 #include "brdf.glsl"
 #include "light.glsl"
 #include "lobes.glsl"
+#include "material.glsl"
+#ifdef HAS_STORED
+#include "stored.glsl"
+#else
 #include "surface.glsl"
+#endif
 #ifdef HAS_DEBUG
 #include "tonemap.glsl"
 #endif
@@ -31,11 +36,14 @@ vec3 light_lobe(vec3 F0, float alpha, float spread, float sin2, vec3 cosines) {
     return whole;
 }
 
-// Sources taken out of the environment's levels, as discs. spread: of the normals within the pixel.
-void add_lights(inout Reflected sum, Surface s, ReflectionWeights w, vec3 N, vec3 V) {
+// Sources taken out of the environment's levels, as discs. Half vectors that a small light would hit or miss by chance are
+// spread over the normals within the pixel (Tokuyoshi & Kaplanyan 2019).
+void add_lights(inout Reflected sum, Surface s, ReflectionWeights w, Geometry g) {
+    vec3 N = g.N;
+    vec3 V = g.V;
     vec3 F0 = base_reflectance(s.albedo, s.metallic);
     float NoV = max(dot(N, V), 1e-4);
-    float spread = counts.x > 0.0 ? pixel_spread(pixel_normals(N)) : 0.0;
+    float spread = pixel_spread(g.around);
     for (int i = 0; i < PATINA_MAX_LIGHTS; ++i) {
         if (float(i) >= counts.x) break;
         vec3 L = light_direction[i].xyz;
@@ -72,7 +80,9 @@ Occlusion occlusion_of(Surface s, float NoV) {
     return open;
 }
 
-Reflected reflected_light(Surface s, vec3 N, vec3 V) {
+Reflected reflected_light(Surface s, Geometry g) {
+    vec3 N = g.N;
+    vec3 V = g.V;
     s.roughness = widened_roughness(s.roughness, s.spread);
     float NoV = max(dot(N, V), 1e-4);
     vec3 R = reflect(-V, N);
@@ -87,8 +97,8 @@ Reflected reflected_light(Surface s, vec3 N, vec3 V) {
     p.irradiance = irradiance_light(p.N);
     p.across = p.up = vec3(0.0);
 #ifdef HAS_SHARP
-#ifdef HAS_FITTED
-    PixelNormals pixel = pixel_normals(N);
+#if defined(HAS_FITTED) || defined(HAS_STORED)
+    PixelNormals pixel = g.around;
 #else
     PixelNormals pixel = pixel_normals(0.5 * R);
 #endif
@@ -104,7 +114,7 @@ Reflected reflected_light(Surface s, vec3 N, vec3 V) {
     Reflected sum;
     sum.specular = w.single * lobe_light(p) * open.specular + w.multiple * p.irradiance * open.multiple;
     sum.diffuse = w.diffuse * p.irradiance * open.diffuse;
-    add_lights(sum, s, w, N, V);
+    add_lights(sum, s, w, g);
     return sum;
 }
 
@@ -113,14 +123,18 @@ Reflected reflected_light(Surface s, vec3 N, vec3 V) {
 #endif
 
 void main() {
-    vec2 st = vec2(map_uv.x, 1.0 - map_uv.y);   // maps are stored top row first
-    vec3 V = normalize(camera_position.xyz - world_position);
-    Surface s = read_surface(st);
-    vec3 N = shading_normal(V, st);
-#ifdef HAS_DEBUG
-    vec3 color = debug_color(s, N, V, st);
+#ifdef HAS_STORED
+    Surface s = surface_of(stored_maps());
+    Geometry g = stored_geometry();
 #else
-    Reflected light = reflected_light(s, N, V);
+    vec2 st = vec2(map_uv.x, 1.0 - map_uv.y);   // maps are stored top row first
+    Surface s = surface_of(read_maps(st));
+    Geometry g = read_geometry(st);
+#endif
+#ifdef HAS_DEBUG
+    vec3 color = debug_color(s, g, st);
+#else
+    Reflected light = reflected_light(s, g);
     vec3 color = light.diffuse + light.specular + s.emission;
 #endif
     picture_color = vec4(min(at_least(color, 0.0), vec3(ray_right.w)), 1.0);

@@ -9,6 +9,7 @@
 #include "blocks.h"
 #include "brdf.glsl"
 #include "light.glsl"
+#include "material.glsl"
 #include "surface.glsl"
 
 uniform sampler2D brdf_table;         // A and B over (√NoV, roughness)
@@ -107,7 +108,7 @@ vec3 estimate(Sampled p, mat3 frame, int i) {
 void main() {
     vec2 st = vec2(map_uv.x, 1.0 - map_uv.y);   // maps are stored top row first
     vec3 V = normalize(camera_position.xyz - world_position);
-    Surface s = read_surface(st);
+    Surface s = surface_of(read_maps(st));
     s.roughness = widened_roughness(s.roughness, s.spread);
     vec3 N = shading_normal(V, st);
     mat3 frame = frame_around(environment_direction(N));

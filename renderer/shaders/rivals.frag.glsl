@@ -5,6 +5,7 @@
 #include "blocks.h"
 #include "brdf.glsl"
 #include "light.glsl"
+#include "material.glsl"
 #include "surface.glsl"
 
 uniform sampler2D brdf_table;   // A and B over (√NoV, roughness)
@@ -61,7 +62,7 @@ vec3 specular_part(Surface s, vec3 N, vec3 V, float NoV, vec2 ab) {
 void main() {
     vec2 st = vec2(map_uv.x, 1.0 - map_uv.y);
     vec3 V = normalize(camera_position.xyz - world_position);
-    Surface s = read_surface(st);
+    Surface s = surface_of(read_maps(st));
     vec3 N = shading_normal(V, st);
     float NoV = max(dot(N, V), 1e-4);
     vec2 ab = texture(brdf_table, albedo_coordinates(NoV, s.roughness)).rg;

@@ -1,4 +1,4 @@
-// The material at one point: maps, values and the normal that is shaded.
+// A point of the mesh as it is rasterised: its maps and the normal that is shaded.
 
 #ifdef HAS_ALBEDO_MAP
 uniform sampler2D albedo_map;
@@ -25,57 +25,27 @@ in vec4 world_tangent;
 in vec2 mesh_uv;
 in vec2 map_uv;
 
-struct Surface {
-    vec3 albedo;
-    float roughness;
-    float metallic;
-    float ao;
-    vec3 emission;
-    float spread;   // of the normals that the pixel averages, to be added to alpha²
-};
-
-// Not NaN (every comparison with NaN is false), not below the floor.
-float at_least(float x, float floor_value) { return x > floor_value ? x : floor_value; }
-vec3 at_least(vec3 c, float floor_value) {
-    return vec3(at_least(c.x, floor_value), at_least(c.y, floor_value), at_least(c.z, floor_value));
-}
-float unit_range(float x) { return min(at_least(x, 0.0), 1.0); }
-
-Surface read_surface(vec2 st) {
-    Surface s;
-    s.albedo = albedo.rgb;
-    s.roughness = scalar_bias.x;
-    s.metallic = scalar_bias.y;
-    s.ao = scalar_bias.z;
-    s.emission = vec3(0.0);
-    s.spread = 0.0;
+MapTexels read_maps(vec2 st) {
+    MapTexels m = MapTexels(vec3(1.0), 0.0, 0.0, 0.0, 0.0, vec3(1.0));
 #ifdef HAS_NORMAL_MAP
-    s.spread = min(square(at_least(1.0 - texture(normal_map, st).a, 0.0) * normal_x.w), 1.0);   // as map_levels.h stores it
+    m.spread = min(square(at_least(1.0 - texture(normal_map, st).a, 0.0) * normal_x.w), 1.0);   // as map_levels.h stores it
 #endif
 #ifdef HAS_ALBEDO_MAP
-    s.albedo *= texture(albedo_map, st).rgb;
+    m.albedo = texture(albedo_map, st).rgb;
 #endif
 #ifdef HAS_ROUGHNESS_MAP
-    s.roughness += dot(texture(roughness_map, st), roughness);
+    m.roughness = dot(texture(roughness_map, st), roughness);
 #endif
 #ifdef HAS_METALLIC_MAP
-    s.metallic += dot(texture(metallic_map, st), metallic);
+    m.metallic = dot(texture(metallic_map, st), metallic);
 #endif
 #ifdef HAS_AO_MAP
-    s.ao += dot(texture(ao_map, st), ao);
+    m.ao = dot(texture(ao_map, st), ao);
 #endif
-#ifdef HAS_EMISSION
-    s.emission = emission.rgb;
 #ifdef HAS_EMISSION_MAP
-    s.emission *= texture(emission_map, st).rgb;
+    m.emission = texture(emission_map, st).rgb;
 #endif
-    s.emission = at_least(s.emission, 0.0);
-#endif
-    s.albedo = min(at_least(s.albedo, 0.0), vec3(1.0));
-    s.roughness = unit_range(s.roughness);
-    s.metallic = unit_range(s.metallic);
-    s.ao = unit_range(s.ao);
-    return s;
+    return m;
 }
 
 #ifdef HAS_NORMAL_MAP
@@ -118,12 +88,6 @@ vec3 shading_normal(vec3 V, vec2 st) {
     return n;
 }
 
-// How the normal changes from a pixel to its neighbours. At a silhouette, where it turns without end, those that it is
-// measured against lie beside the surface.
-struct PixelNormals {
-    vec3 across;
-    vec3 up;
-};
 PixelNormals pixel_normals(vec3 N) {
     vec3 across = dFdx(N);
     vec3 up = dFdy(N);
@@ -132,7 +96,8 @@ PixelNormals pixel_normals(vec3 N) {
     return PixelNormals(scale * across, scale * up);
 }
 
-// What they add to alpha² for a small light, whose half vectors stand still while the normal turns. A pixel's mean is a box one
-// pixel wide, whose variance is 1/12 a side. Slopes of variance σ² along an axis have α² = 2σ² (Beckmann's α is GGX's in the
-// middle), and the two axes of the tangent plane have half of the whole variance (|∂x N|² + |∂y N|²)/12 each.
-float pixel_spread(PixelNormals n) { return (dot(n.across, n.across) + dot(n.up, n.up)) / 12.0; }
+Geometry read_geometry(vec2 st) {
+    vec3 V = normalize(camera_position.xyz - world_position);
+    vec3 N = shading_normal(V, st);
+    return Geometry(N, V, pixel_normals(N));
+}

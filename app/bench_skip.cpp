@@ -1,0 +1,279 @@
+// `patina bench skip`: what is saved by computing only what a picture needs. Every scenario is run as it is
+// and with skipping off, in turn, and the pictures are compared.
+#include "app/bench.h"
+#include "app/bench_process.h"
+#include "app/headless.h"
+#include "app/jobs.h"
+#include "app/paths.h"
+#include "app/scene_loader.h"
+#include "app/stats.h"
+#include "app/temporary_folder.h"
+#include "materials/text_io.h"
+#include "renderer/core/file_io.h"
+#include "renderer/core/image_io.h"
+#include "renderer/core/module_io.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace patina {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr int kSidePx = 512;
+
+double milliseconds(const std::function<void()>& action) {
+    const auto begin = std::chrono::steady_clock::now();
+    action();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+// --- whole commands, each a process: time, memory, ledger ---
+
+struct CommandCase {
+    std::string name;
+    std::string arguments;
+};
+
+std::vector<CommandCase> command_cases() {
+    const std::string render = "render ";
+    const std::string compare = "compare ";
+    const std::string views = " --env ";
+    return {{"uniform plastic", render + "plastic-glossy-red --env sky"},
+            {"full metal", render + "gold --env sky"},
+            {"textured, no normal map", render + "terrazzo --env sky"},
+            {"everything on", render + "cooling-lava --env sky --mesh shaderball"},
+            {"1 view", compare + "worn-paint" + views + "studio"},
+            {"2 views", compare + "worn-paint" + views + "studio sky"},
+            {"4 views", compare + "worn-paint" + views + "studio sky sunset night"},
+            {"9 views", compare + "worn-paint gold porcelain" + views + "studio sky sunset"}};
+}
+
+struct CommandRun {
+    double wall_ms = 0.0, cpu_ms = 0.0, peak_mib = 0.0;
+    Json work;
+};
+
+CommandRun run_once(const CommandCase& each, bool skip, const fs::path& folder) {
+    std::error_code ignored;
+    fs::remove_all(folder / "cache", ignored);
+    const fs::path stats = folder / "stats.json";
+    const fs::path picture = folder / (skip ? "skip.png" : "all.png");
+    const std::string command = quoted(program_folder() / "patina") + " " + each.arguments + " --size " +
+                                std::to_string(kSidePx) + "x" + std::to_string(kSidePx) + " -o " +
+                                quoted(picture) + " --stats " + quoted(stats) + (skip ? "" : " --no-skip") +
+                                " 2> " + quoted(folder / "said.txt");
+    CommandRun run;
+    int status = 0;
+    run.wall_ms = milliseconds([&] { status = std::system(command.c_str()); });
+    if (status != 0) throw std::runtime_error("bench skip: " + each.name + " failed: " + command);
+    const std::vector<std::byte> bytes = read_file(stats);
+    const Json json = Json::parse(reinterpret_cast<const char*>(bytes.data()),
+                                  reinterpret_cast<const char*>(bytes.data() + bytes.size()));
+    run.cpu_ms = 1e3 * json.at("cpu_s").get<double>();
+    run.peak_mib = json.at("peak_memory_bytes").get<double>() / 1048576.0;
+    run.work = json.at("work");
+    return run;
+}
+
+/// Of 8-bit codes.
+int largest_step(const fs::path& one, const fs::path& other) {
+    const Image a = load_image(one).image;
+    const Image b = load_image(other).image;
+    if (a.bytes.size() != b.bytes.size()) return 255;
+    int largest = 0;
+    for (std::size_t i = 0; i < a.bytes.size(); ++i)
+        largest = std::max(largest, std::abs(int(a.bytes[i]) - int(b.bytes[i])));
+    return largest;
+}
+
+Json summary(const std::vector<CommandRun>& runs) {
+    std::vector<double> wall, cpu, peak;
+    for (const CommandRun& run : runs) {
+        wall.push_back(run.wall_ms);
+        cpu.push_back(run.cpu_ms);
+        peak.push_back(run.peak_mib);
+    }
+    return {{"wall_ms", median(wall)},
+            {"cpu_ms", median(cpu)},
+            {"peak_mib", median(peak)},
+            {"work", runs.front().work}};
+}
+
+Json bench_commands(int repetitions) {
+    const TemporaryFolder folder("patina-skip");
+    set_variable("PATINA_CACHE_DIR", path_to_utf8(folder.path() / "cache" / "patina"));
+    Json rows = Json::array();
+    std::printf("%-28s %9s %9s %6s  %9s %9s  %s\n", "picture, whole command", "CPU ms", "no skip", "ratio",
+                "peak MiB", "no skip", "largest step");
+    for (const CommandCase& each : command_cases()) {
+        std::array<std::vector<CommandRun>, 2> runs;
+        for (int i = 0; i < repetitions; ++i)
+            for (const int which : {i % 2, 1 - i % 2})
+                runs[std::size_t(which)].push_back(run_once(each, which == 0, folder.path()));
+        Json row{{"name", each.name},
+                 {"skip", summary(runs[0])},
+                 {"no_skip", summary(runs[1])},
+                 {"largest_code_step", largest_step(folder.path() / "skip.png", folder.path() / "all.png")}};
+        const auto value = [&](const char* side, const char* key) { return row[side][key].get<double>(); };
+        std::printf("%-28s %9.0f %9.0f %6.2f  %9.0f %9.0f  %d\n", each.name.c_str(), value("skip", "cpu_ms"),
+                    value("no_skip", "cpu_ms"), value("skip", "cpu_ms") / value("no_skip", "cpu_ms"),
+                    value("skip", "peak_mib"), value("no_skip", "peak_mib"),
+                    row["largest_code_step"].get<int>());
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+// --- what an artist does, in one process: time of a step ---
+
+struct Stage {
+    HeadlessContext context;
+    Renderer renderer;
+    Jobs jobs{worker_count()};
+};
+
+/// Draws all, and waits until they are drawn.
+void draw_all_views(Renderer& renderer, const std::vector<Scene>& scenes,
+                    const std::vector<TargetHandle>& targets) {
+    for (std::size_t i = 0; i < scenes.size(); ++i)
+        renderer.draw(scenes[i], *targets[i], scenes.size() > 1 ? Reuse::Expected : Reuse::IfRepeated);
+    renderer.read_display(*targets.back());
+}
+
+struct Step {
+    std::string name;
+    std::vector<std::string> presets, lights;
+    int side_px = kSidePx;
+    void (*change)(Scene&) = nullptr;
+};
+
+void turn_light(Scene& scene) { scene.view.env_rotation_deg += 3.0f; }
+void move_slider(Scene& scene) {
+    float& value = scene.material.roughness.value;
+    value = value > 0.9f ? 0.4f : value + 0.01f;
+}
+void orbit(Scene& scene) { scene.camera.yaw_deg += 2.0f; }
+
+std::vector<Step> steps() {
+    const std::vector<std::string> one{"studio"}, three{"studio", "sky", "sunset"},
+        four{"studio", "sky", "sunset", "night"};
+    const int third = 300;
+    return {
+        {"slider drag, plastic", {"plastic-glossy-red"}, one, kSidePx, move_slider},
+        {"slider drag, worn paint", {"worn-paint"}, one, kSidePx, move_slider},
+        {"light rotation, plastic", {"plastic-glossy-red"}, one, kSidePx, turn_light},
+        {"light rotation, worn paint", {"worn-paint"}, one, kSidePx, turn_light},
+        {"orbit, worn paint", {"worn-paint"}, one, kSidePx, orbit},
+        {"light rotation, 4 views", {"worn-paint"}, four, kSidePx, turn_light},
+        {"orbit, 4 views", {"worn-paint"}, four, kSidePx, orbit},
+        {"light rotation, 1 view of 900", {"gold"}, one, 3 * third, turn_light},
+        {"light rotation, 1 view of 300", {"gold"}, one, third, turn_light},
+        {"light rotation, 9 views of 300", {"gold", "worn-paint", "porcelain"}, three, third, turn_light}};
+}
+
+Json bench_steps(Stage& stage, const BenchContext& context) {
+    SceneLoader loader(
+        stage.renderer, context.registry,
+        {.parallel_for = stage.jobs.parallel_for(), .cache = {.folder = cache_folder() / "ibl"}});
+    Json rows = Json::array();
+    std::printf("\n%-34s %9s %9s %6s\n", "one step", "ms", "no skip", "ratio");
+    for (const Step& step : steps()) {
+        std::vector<Scene> scenes;
+        std::vector<TargetHandle> targets;
+        for (const std::string& preset : step.presets)
+            for (const std::string& light : step.lights) {
+                scenes.push_back(loader.scene(preset, SceneOptions{.size_px = glm::ivec2(step.side_px)}));
+                scenes.back().environment = loader.environment(light);
+                targets.push_back(stage.renderer.make_target(glm::ivec2(step.side_px)));
+            }
+        std::array<std::vector<double>, 2> ms;
+        for (int i = 0; i < context.repetitions(); ++i)
+            for (const int which : {i % 2, 1 - i % 2}) {
+                stage.renderer.set_reuse(which == 0);
+                std::vector<double> own;
+                for (int k = 0; k < 4; ++k) {  // the first compiles and may rasterise
+                    for (Scene& scene : scenes) step.change(scene);
+                    own.push_back(milliseconds([&] { draw_all_views(stage.renderer, scenes, targets); }));
+                }
+                ms[std::size_t(which)].push_back(*std::min_element(own.begin() + 1, own.end()));
+            }
+        const double skip = median(ms[0]), all = median(ms[1]);
+        std::printf("%-34s %9.1f %9.1f %6.2f\n", step.name.c_str(), skip, all, skip / all);
+        rows.push_back({{"name", step.name}, {"skip_ms", skip}, {"no_skip_ms", all}, {"ratio", skip / all}});
+    }
+    stage.renderer.set_reuse(true);
+    return rows;
+}
+
+// --- another environment, until the picture under it is there ---
+
+Json bench_switch(Stage& stage, const BenchContext& context) {
+    const std::string& environment = context.environments.back();
+    const TargetHandle target = stage.renderer.make_target(glm::ivec2(kSidePx));
+    const auto options = [&](bool skip, const fs::path& cache) {
+        return SceneLoader::Options{
+            .parallel_for = stage.jobs.parallel_for(), .cache = {.folder = cache}, .skip = skip};
+    };
+    const auto show = [&](SceneLoader& loader, Scene scene) {
+        return milliseconds([&] {
+            scene.environment = loader.environment(environment, loader.needed_light(scene));
+            stage.renderer.draw(scene, *target);
+            stage.renderer.read_display(*target);
+        });
+    };
+    std::array<std::array<std::vector<double>, 3>, 2> ms;
+    std::vector<double> decode;
+    for (int i = 0; i < context.repetitions(); ++i) {
+        decode.push_back(milliseconds([&] { load_environment(context.registry, environment); }));
+        for (const int which : {0, 1}) {
+            const TemporaryFolder cache("patina-skip");
+            auto& own = ms[std::size_t(which)];
+            for (const std::size_t from : {0u, 1u}) {  // nowhere, disk
+                SceneLoader loader(stage.renderer, context.registry, options(which == 0, cache.path()));
+                const Scene scene = loader.scene("plastic-glossy-red", SceneOptions{});
+                own[from].push_back(show(loader, scene));
+                if (from == 1) own[2].push_back(show(loader, scene));  // memory
+            }
+        }
+    }
+    constexpr std::array names{"cold", "disk cache", "memory"};
+    Json json{{"environment", environment}, {"decode_ms", median(decode)}, {"cases", Json::array()}};
+    std::printf("\n%-34s %9s %9s   (decoding alone %.1f ms)\n",
+                ("environment " + path_to_utf8(utf8_to_path(environment).filename())).c_str(), "ms",
+                "no skip", median(decode));
+    for (std::size_t from = 0; from < names.size(); ++from) {
+        const double skip = median(ms[0][from]), all = median(ms[1][from]);
+        std::printf("%-34s %9.1f %9.1f\n", names[from], skip, all);
+        json["cases"].push_back({{"name", names[from]}, {"skip_ms", skip}, {"no_skip_ms", all}});
+    }
+    return json;
+}
+
+}  // namespace
+
+Json bench_skip(const BenchContext& context) {
+    Json json{{"renderer", ""}, {"commands", bench_commands(context.quick ? 1 : 3)}};
+    Stage stage;
+    json["renderer"] = stage.context.description();
+    json["steps"] = bench_steps(stage, context);
+    json["environment_switch"] = bench_switch(stage, context);
+    return json;
+}
+
+}  // namespace patina

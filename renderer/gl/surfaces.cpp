@@ -1,0 +1,288 @@
+#include "renderer/gl/surfaces.h"
+
+#include "renderer/gl/program.h"
+#include "renderer/gl/read_state.h"
+#include "renderer/gl/texture.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace patina::gl {
+
+namespace {
+
+constexpr std::uint32_t kMixedPixel = 0x80000000u;
+
+int layer_count(SurfaceMaps maps) {
+    return maps == SurfaceMaps::None ? 3 : maps == SurfaceMaps::Some ? 5 : 6;
+}
+
+std::uint64_t texels_in(glm::ivec2 size) { return std::uint64_t(size.x) * std::uint64_t(size.y); }
+
+void exact_texels(GLenum kind) {
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        glTexParameteri(kind, filter, GL_NEAREST);
+    glTexParameteri(kind, GL_TEXTURE_MAX_LEVEL, 0);
+}
+
+/// One level without multisampling; data may be nullptr.
+Texture make_texture(GLenum internal, glm::ivec2 size, std::pair<GLenum, GLenum> external, const void* data) {
+    Texture texture = Texture::make();
+    glBindTexture(GL_TEXTURE_2D, texture.name());
+    glTexImage2D(GL_TEXTURE_2D, 0, GLint(internal), size.x, size.y, 0, external.first, external.second, data);
+    exact_texels(GL_TEXTURE_2D);
+    return texture;
+}
+
+Texture make_layer(GLenum internal, glm::ivec2 size, int samples) {
+    if (samples == 1) return make_texture(internal, size, {GL_RGBA, GL_FLOAT}, nullptr);
+    Texture texture = Texture::make();
+    glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture.name());
+    glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, internal, size.x, size.y, GL_TRUE);
+    glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, 0);
+    return texture;
+}
+
+void attach(int place, GLenum kind, const Texture& texture) {
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + GLenum(place), kind, texture.name(), 0);
+}
+
+void draw_into(int attachments) {
+    std::array<GLenum, 7> places{};
+    for (int i = 0; i < attachments; ++i) places[std::size_t(i)] = GL_COLOR_ATTACHMENT0 + GLenum(i);
+    glDrawBuffers(attachments, places.data());
+}
+
+void require_complete(glm::ivec2 size) {
+    check_memory("the surface of the picture");
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+    throw std::runtime_error("The graphics driver cannot keep the surface of a picture of " +
+                             std::to_string(size.x) + "×" + std::to_string(size.y) +
+                             ": choose a smaller size.");
+}
+
+/// Where every fragment was found, and which fragments make up a pixel.
+struct Sorted {
+    struct Place {
+        std::uint16_t x = 0, y = 0, sample = 0, unused = 0;
+    };
+    std::vector<Place> mesh, behind;
+    std::vector<std::uint32_t> pixels;                ///< a fragment, or kMixedPixel and a row of mixed
+    std::vector<std::array<std::uint32_t, 4>> mixed;  ///< fragments of the samples
+    int mesh_rows = 0, rows = 0;
+};
+
+int rows_of(std::size_t fragments) {
+    return int((fragments + GpuSurfaces::kWidth - 1) / GpuSurfaces::kWidth);
+}
+
+/// fragments: four a pixel, 0 where a sample meets nothing. Numbers of fragments behind count from their own
+/// first, marked, until it is known how many lie before them.
+Sorted sorted(const std::vector<float>& fragments, glm::ivec2 size, int samples) {
+    constexpr std::uint32_t behind_mark = 0x40000000u;
+    Sorted result;
+    result.pixels.resize(texels_in(size));
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const std::size_t pixel = std::size_t(y) * std::size_t(size.x) + std::size_t(x);
+            const float* const ids = &fragments[4 * pixel];
+            std::array<std::uint32_t, 4> numbers{};
+            bool is_one = true;
+            for (int i = 0; i < samples; ++i) {
+                const int same = int(std::find(ids, ids + i, ids[i]) - ids);
+                if (same < i) {
+                    numbers[std::size_t(i)] = numbers[std::size_t(same)];
+                    continue;
+                }
+                auto& list = ids[i] > 0.0f ? result.mesh : result.behind;
+                numbers[std::size_t(i)] = std::uint32_t(list.size()) | (ids[i] > 0.0f ? 0u : behind_mark);
+                list.push_back({std::uint16_t(x), std::uint16_t(y), std::uint16_t(i)});
+                is_one = is_one && i == 0;
+            }
+            result.pixels[pixel] = is_one ? numbers[0] : kMixedPixel | std::uint32_t(result.mixed.size());
+            if (!is_one) result.mixed.push_back(numbers);
+        }
+    result.mesh_rows = rows_of(result.mesh.size());
+    result.rows = std::max(result.mesh_rows + rows_of(result.behind.size()), 1);
+    const std::uint32_t first_behind = std::uint32_t(result.mesh_rows) * GpuSurfaces::kWidth;
+    const auto placed = [&](std::uint32_t number) {
+        return (number & behind_mark) != 0 ? (number & ~behind_mark) + first_behind : number;
+    };
+    for (std::uint32_t& number : result.pixels)
+        if ((number & kMixedPixel) == 0) number = placed(number);
+    for (auto& numbers : result.mixed)
+        for (std::uint32_t& number : numbers) number = placed(number);
+    return result;
+}
+
+Texture make_places(const Sorted& fragments) {
+    std::vector<Sorted::Place> places(std::size_t(fragments.rows) * GpuSurfaces::kWidth);
+    std::ranges::copy(fragments.mesh, places.begin());
+    std::ranges::copy(fragments.behind,
+                      places.begin() + std::ptrdiff_t(fragments.mesh_rows) * GpuSurfaces::kWidth);
+    return make_texture(GL_RGBA16UI, {GpuSurfaces::kWidth, fragments.rows},
+                        {GL_RGBA_INTEGER, GL_UNSIGNED_SHORT}, places.data());
+}
+
+Texture make_mixed(Sorted& fragments) {
+    const int rows = std::max(rows_of(fragments.mixed.size()), 1);
+    fragments.mixed.resize(std::size_t(rows) * GpuSurfaces::kWidth);
+    return make_texture(GL_RGBA32UI, {GpuSurfaces::kWidth, rows}, {GL_RGBA_INTEGER, GL_UNSIGNED_INT},
+                        fragments.mixed.data());
+}
+
+void bind(GLuint unit, GLenum kind, const Texture& texture) {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindSampler(unit, 0);
+    glBindTexture(kind, texture.name());
+}
+
+int most_rows() {
+    GLint most = 1024;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    return most;
+}
+
+}  // namespace
+
+void draw_all(GLuint program, GLuint nothing, glm::ivec4 box) {
+    glViewport(box.x, box.y, box.z, box.w);
+    glDisable(GL_DEPTH_TEST);
+    glUseProgram(program);
+    glBindVertexArray(nothing);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+bool SurfaceScratch::fits(glm::ivec2 size_px, int samples, SurfaceMaps maps) const {
+    return size_px_ == size_px && samples_ == samples && maps_ == maps;
+}
+
+std::uint64_t SurfaceScratch::bytes_for(glm::ivec2 size_px, int samples, SurfaceMaps maps) {
+    return texels_in(size_px) * std::uint64_t(samples) * std::uint64_t(16 * layer_count(maps) + 8);
+}
+
+void SurfaceScratch::make(glm::ivec2 size_px, int samples, SurfaceMaps maps) {
+    *this = {};
+    const KeepTextureBindings keep;
+    framebuffer_ = Framebuffer::make();
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    size_px_ = size_px;
+    samples_ = samples;
+    fragments_ = make_layer(GL_R32F, size_px, samples);
+    attach(0, kind(), fragments_);
+    for (int i = 0; i < layer_count(maps); ++i) {
+        layers_[std::size_t(i)] = make_layer(GL_RGBA32F, size_px, samples);
+        attach(1 + i, kind(), layers_[std::size_t(i)]);
+    }
+    draw_into(1 + layer_count(maps));
+    depth_ = Renderbuffer::make();
+    glBindRenderbuffer(GL_RENDERBUFFER, depth_.name());
+    if (samples > 1)
+        glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, size_px.x,
+                                         size_px.y);
+    else
+        glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, size_px.x, size_px.y);
+    glBindRenderbuffer(GL_RENDERBUFFER, 0);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.name());
+    require_complete(size_px);
+    maps_ = maps;
+}
+
+void SurfaceScratch::begin() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    glViewport(0, 0, size_px_.x, size_px_.y);
+    const GLfloat far = 1.0f;
+    glClearBufferfv(GL_DEPTH, 0, &far);
+}
+
+std::vector<float> SurfaceScratch::read_fragments(const SurfacePrograms& programs) const {
+    const Texture four = make_texture(GL_RGBA32F, size_px_, {GL_RGBA, GL_FLOAT}, nullptr);
+    const Framebuffer framebuffer = Framebuffer::make();
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    attach(0, GL_TEXTURE_2D, four);
+    require_complete(size_px_);
+    bind(kPictureUnit, kind(), fragments_);
+    draw_all(programs.fragments, programs.nothing, {0, 0, size_px_});
+    const KeepReadState pack;
+    std::vector<float> fragments(4 * texels_in(size_px_));
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    glReadPixels(0, 0, size_px_.x, size_px_.y, GL_RGBA, GL_FLOAT, fragments.data());
+    return fragments;
+}
+
+GpuSurfaces SurfaceScratch::finish(const SurfacePrograms& programs) const {
+    const KeepTextureBindings keep;
+    Sorted fragments = sorted(read_fragments(programs), size_px_, samples_);
+    if (fragments.rows > most_rows())
+        throw std::runtime_error("The picture has more fragments than the graphics driver has room for.");
+    GpuSurfaces surfaces{.size_px = size_px_,
+                         .samples = samples_,
+                         .mesh_rows = fragments.mesh_rows,
+                         .rows = fragments.rows,
+                         .layers = {},
+                         .fragment_of_pixel = {},
+                         .fragments_of_samples = {},
+                         .mesh_fragments = fragments.mesh.size(),
+                         .bytes = 0};
+    const Texture places = make_places(fragments);
+    const Framebuffer framebuffer = Framebuffer::make();
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    const glm::ivec2 extent{GpuSurfaces::kWidth, fragments.rows};
+    const int layers = layer_count(maps_);
+    for (int i = 0; i < layers; ++i) {
+        auto& layer = surfaces.layers[std::size_t(i)];
+        layer = make_texture(GL_RGBA32F, extent, {GL_RGBA, GL_FLOAT}, nullptr);
+        attach(i, GL_TEXTURE_2D, layer);
+    }
+    draw_into(layers);
+    require_complete(extent);
+    bind(kFragmentPlacesUnit, GL_TEXTURE_2D, places);
+    for (int i = 0; i < layers; ++i) bind(kFirstStoredUnit + GLuint(i), kind(), layers_[std::size_t(i)]);
+    draw_all(programs.sorted, programs.nothing, {0, 0, extent});
+    surfaces.fragment_of_pixel =
+        make_texture(GL_R32UI, size_px_, {GL_RED_INTEGER, GL_UNSIGNED_INT}, fragments.pixels.data());
+    surfaces.fragments_of_samples = make_mixed(fragments);
+    check_memory("the surface of the picture");
+    surfaces.bytes = texels_in(extent) * std::uint64_t(16 * layers) + 4 * texels_in(size_px_) +
+                     16 * std::uint64_t(fragments.mixed.size());
+    return surfaces;
+}
+
+void bind_surface_layers(const GpuSurfaces& surfaces) {
+    for (std::size_t i = 0; i < surfaces.layers.size(); ++i)
+        if (surfaces.layers[i]) bind(kFirstStoredUnit + GLuint(i), GL_TEXTURE_2D, surfaces.layers[i]);
+}
+
+void bind_surface_pixels(const GpuSurfaces& surfaces) {
+    bind(kFragmentOfPixelUnit, GL_TEXTURE_2D, surfaces.fragment_of_pixel);
+    bind(kFragmentsOfSamplesUnit, GL_TEXTURE_2D, surfaces.fragments_of_samples);
+}
+
+void begin_shading(StoredPicture& picture, std::shared_ptr<const GpuSurfaces> surfaces, bool full_float) {
+    const glm::ivec2 extent{GpuSurfaces::kWidth, surfaces->rows};
+    if (!picture.colors || picture.extent != extent) {
+        const KeepTextureBindings keep;
+        picture.framebuffer = Framebuffer::make();
+        glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer.name());
+        picture.colors =
+            make_texture(full_float ? GL_RGBA32F : GL_RGBA16F, extent, {GL_RGBA, GL_FLOAT}, nullptr);
+        attach(0, GL_TEXTURE_2D, picture.colors);
+        require_complete(extent);
+        picture.extent = extent;
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer.name());
+    const GLfloat empty[] = {0.0f, 0.0f, 0.0f, 0.0f};
+    glClearBufferfv(GL_COLOR, 0, empty);
+    picture.surfaces = std::move(surfaces);
+}
+
+void shade_rows(const GpuSurfaces& surfaces, StoredRows rows, GLuint program, GLuint nothing) {
+    const bool mesh = rows == StoredRows::Mesh;
+    const int first = mesh ? 0 : surfaces.mesh_rows;
+    const int count = (mesh ? surfaces.mesh_rows : surfaces.rows) - first;
+    if (count > 0) draw_all(program, nothing, {0, first, GpuSurfaces::kWidth, count});
+}
+
+}  // namespace patina::gl

@@ -1,0 +1,80 @@
+// What lies under a picture's samples, rasterised once and shaded as often as wanted. Every fragment, a
+// triangle in a pixel, is kept once, however many samples it covers: first those of the mesh, then the rays
+// that pass it, in rows of one texture. What is shaded of them is exactly what is shaded while rasterising.
+#pragma once
+
+#include "renderer/gl/handles.h"
+#include "renderer/gl/target.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace patina {
+
+enum class SurfaceMaps { None, Some, SomeAndEmission };
+
+struct GpuSurfaces {
+    static constexpr int kWidth = 1024;  ///< fragments in a row
+    glm::ivec2 size_px{1};
+    int samples = 1;
+    int mesh_rows = 0;  ///< of fragments of the mesh; the rest are rays
+    int rows = 0;
+    std::array<gl::Texture, 6> layers;  ///< in the order of shaders/stored.glsl; those of maps may lack
+    gl::Texture fragment_of_pixel;
+    gl::Texture fragments_of_samples;
+    std::uint64_t mesh_fragments = 0;
+    std::uint64_t bytes = 0;
+};
+
+namespace gl {
+
+struct SurfacePrograms {
+    GLuint fragments = 0;  ///< surfaces_sorted.frag.glsl with FRAGMENTS
+    GLuint sorted = 0;     ///< and without
+    GLuint nothing = 0;    ///< vertex array without attributes
+};
+
+/// Where surfaces are rasterised; kept while the camera moves.
+class SurfaceScratch {
+public:
+    bool fits(glm::ivec2 size_px, int samples, SurfaceMaps maps) const;
+    /// Bytes it will take.
+    static std::uint64_t bytes_for(glm::ivec2 size_px, int samples, SurfaceMaps maps);
+    /// Throws std::runtime_error where the driver has no room.
+    void make(glm::ivec2 size_px, int samples, SurfaceMaps maps);
+    /// Empty, bound and ready to be drawn into.
+    void begin() const;
+    /// Sorts what was drawn.
+    GpuSurfaces finish(const SurfacePrograms& programs) const;
+
+private:
+    std::vector<float> read_fragments(const SurfacePrograms& programs) const;
+    GLenum kind() const { return samples_ > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D; }
+
+    glm::ivec2 size_px_{0};
+    int samples_ = 0;
+    SurfaceMaps maps_ = SurfaceMaps::None;
+    Texture fragments_;  ///< of which triangle
+    std::array<Texture, 6> layers_;
+    Renderbuffer depth_;
+    Framebuffer framebuffer_;
+};
+
+void bind_surface_layers(const GpuSurfaces& surfaces);
+void bind_surface_pixels(const GpuSurfaces& surfaces);
+/// A picture for the colours of the fragments, made where the one there does not fit; bound and empty.
+void begin_shading(StoredPicture& picture, std::shared_ptr<const GpuSurfaces> surfaces, bool full_float);
+/// A triangle over a box (x, y, width, height) of the picture that is bound. nothing: as above.
+void draw_all(GLuint program, GLuint nothing, glm::ivec4 box);
+enum class StoredRows { Mesh, Behind };
+/// Draws over those rows of the picture that is bound.
+void shade_rows(const GpuSurfaces& surfaces, StoredRows rows, GLuint program, GLuint nothing);
+
+}  // namespace gl
+}  // namespace patina

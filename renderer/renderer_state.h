@@ -1,0 +1,104 @@
+// What a renderer keeps between draws, and the parts of its passes. Includes OpenGL: for renderer*.cpp only.
+#pragma once
+
+#include "renderer/features.h"
+#include "renderer/gl/environment.h"
+#include "renderer/gl/program.h"
+#include "renderer/gl/surfaces.h"
+#include "renderer/gl/target.h"
+#include "renderer/renderer.h"
+#include "renderer/surface_cache.h"
+#include "renderer/uniforms.h"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace patina {
+
+gl::Texture make_brdf_texture();
+gl::Texture make_lobe_texture();
+EnvironmentHandle make_darkness();
+LightLayout layout_of(const GpuEnvironment& environment);
+/// How many lights' colours the panorama's alpha needs (light.glsl).
+std::size_t colored_lights(const GpuEnvironment& environment);
+Features features_for(const Scene& scene, const GpuEnvironment& environment);
+void bind_texture(GLuint unit, GLenum kind, const gl::Texture& texture);
+/// As every pass over a mesh needs them.
+void set_switches();
+
+template <class Block>
+void upload_block(const gl::Buffer& buffer, GLuint slot, const Block& block) {
+    glBindBuffer(GL_UNIFORM_BUFFER, buffer.name());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
+    glBindBufferBase(GL_UNIFORM_BUFFER, slot, buffer.name());
+}
+
+inline constexpr const char* kStoredWidth = "STORED_WIDTH=1024u";
+inline constexpr int kIdleScratch = 32;  ///< pictures after which where they were rasterised is given back
+
+/// By what decides their text.
+struct StoredPrograms {
+    std::map<Features, gl::Program> rasterise;  ///< by maps
+    gl::Program behind;
+    std::map<int, gl::Program> fragments;                  ///< by samples
+    std::map<std::pair<int, Features>, gl::Program> sort;  ///< by samples and maps
+    std::map<Features, gl::Program> shade;
+    std::map<int, gl::Program> resolve;  ///< by samples
+};
+
+struct Renderer::State {
+    WorkLedger work;
+    ProgramStore programs;
+    std::map<Features, gl::Program> surfaces;
+    std::map<std::pair<Features, int>, gl::Program> references;  ///< by lights: 0, 1, more
+    std::map<std::pair<Features, int>, gl::Program> rivals;      ///< by samples
+    gl::Program depth;                                           ///< of a mesh, nothing else
+    std::array<gl::Program, 4> backgrounds;                      ///< sharp, blurred; the same of stored rays
+    std::map<std::tuple<int, int, bool>, gl::Program> displays;  ///< by samples, tone mapper, stored
+    StoredPrograms stored;
+    SurfaceCache<GpuSurfaces> kept_surfaces;
+    gl::SurfaceScratch scratch;
+    int scratch_idle = 0;  ///< pictures since it was used
+    bool reuse = true;
+    gl::VertexArray nothing = gl::VertexArray::make();  ///< for triangles made in the shader
+    gl::Buffer frame_rows = gl::Buffer::make();
+    gl::Buffer material_rows = gl::Buffer::make();
+    gl::Texture brdf = make_brdf_texture();
+    gl::Texture lobes = make_lobe_texture();
+    EnvironmentHandle darkness = make_darkness();
+
+    gl::Program compiled(const char* vertex, const char* fragment, const std::vector<std::string>& defines);
+    void count_draw(std::uint64_t triangles, std::uint64_t calls = 1);
+    const gl::Program& surface(Features features);
+    const gl::Program& reference(Features features, std::size_t lights);
+    const gl::Program& rival(Features features, int samples);
+    const gl::Program& depth_only();
+    const gl::Program& background(Background background, bool stored = false);
+    const gl::Program& display(int samples, Tonemap tonemap, bool stored);
+    void bind_light(const GpuEnvironment& environment) const;
+    void draw_radiance(const Scene& scene, const GpuEnvironment& environment, RenderTarget& target,
+                       std::optional<int> rival_samples = {});
+    void bind_maps(const Scene& scene) const;
+    void draw_background(Background background);
+    void draw_reference(const Scene& scene, const GpuEnvironment& environment, ReferenceTarget& target,
+                        const ReferenceSlice& slice);
+    void draw_display(const View& view, const RenderTarget& target);
+
+    // renderer_stored.cpp
+    const gl::Program& stored_surface(Features features);
+    gl::SurfacePrograms surface_programs(int samples, Features maps);
+    std::shared_ptr<const GpuSurfaces> surfaces_for(const Scene& scene, const RenderTarget& target,
+                                                    Features features, Reuse reuse);
+    std::shared_ptr<const GpuSurfaces> rasterised(const Scene& scene, const RenderTarget& target,
+                                                  Features maps);
+    void shade_stored(const Scene& scene, const GpuEnvironment& environment, RenderTarget& target,
+                      std::shared_ptr<const GpuSurfaces> surfaces);
+    void draw_resolved(const RenderTarget& target);
+};
+
+}  // namespace patina

@@ -1,0 +1,181 @@
+// Surfaces rasterised once and shaded as often as wanted: for views that differ in light or values alone, and
+// for sliders.
+#include "renderer/gl/mesh.h"
+#include "renderer/gl/texture.h"
+#include "renderer/renderer_state.h"
+
+namespace patina {
+
+namespace {
+
+constexpr std::uint64_t kMostScratchBytes = std::uint64_t{384} << 20;
+constexpr std::uint64_t kSmallScratchBytes = std::uint64_t{64} << 20;
+constexpr Features kMaps = Features(Feature::AlbedoMap) | Features(Feature::RoughnessMap) |
+                           Features(Feature::MetallicMap) | Features(Feature::AoMap) |
+                           Features(Feature::NormalMap) | Features(Feature::EmissionMap);
+
+SurfaceMaps kind_of(Features maps) {
+    if (has(maps, Feature::EmissionMap)) return SurfaceMaps::SomeAndEmission;
+    return maps == 0 ? SurfaceMaps::None : SurfaceMaps::Some;
+}
+
+/// Its maps as they are, but for the normals, which are kept as shaded.
+Material with_plain_values(const Material& material) {
+    Material plain = material;
+    for (ScalarSlot* slot : {&plain.roughness, &plain.metallic, &plain.ao}) {
+        slot->value = 1.0f;
+        slot->invert = false;
+    }
+    return plain;
+}
+
+std::vector<std::string> stored_defines(Features maps) {
+    std::vector<std::string> defines = defines_of(maps);
+    if (maps != 0) defines.emplace_back("HAS_STORED_MAPS");
+    return defines;
+}
+
+std::vector<std::string> with_samples(std::vector<std::string> defines, int samples) {
+    if (samples > 1) defines.push_back("SAMPLES=" + std::to_string(samples));
+    return defines;
+}
+
+SurfaceKey key_of(const Scene& scene, Features maps, glm::ivec2 size_px, int samples) {
+    SurfaceKey key{
+        .mesh = scene.mesh, .features = maps, .camera = scene.camera, .size_px = size_px, .samples = samples};
+    const Material& material = scene.material;
+    const auto reads = [&](MapSlot slot) { return (maps >> Features(slot) & 1u) != 0; };
+    for (std::size_t i = 0; i < key.maps.size(); ++i)
+        if (reads(MapSlot(i))) key.maps[i] = scene.maps[i];
+    const std::array scalars{&material.roughness, &material.metallic, &material.ao};
+    for (std::size_t i = 0; i < scalars.size(); ++i)
+        if (reads(MapSlot(std::size_t(MapSlot::Roughness) + i))) key.channels[i] = scalars[i]->channel;
+    if (maps != 0) key.uv = material.uv;
+    if (!reads(MapSlot::Normal)) return key;
+    key.normal_strength = material.normal.value;
+    key.normal_convention = material.normal.convention;
+    return key;
+}
+
+}  // namespace
+
+const gl::Program& Renderer::State::stored_surface(Features features) {
+    gl::Program& program = stored.shade[features];
+    if (program) return program;
+    std::vector<std::string> defines = defines_of(features);
+    defines.emplace_back("HAS_STORED");
+    if ((features & kMaps) != 0) defines.emplace_back("HAS_STORED_MAPS");
+    program = compiled("display.vert.glsl", "mesh.frag.glsl", defines);
+    return program;
+}
+
+gl::SurfacePrograms Renderer::State::surface_programs(int samples, Features maps) {
+    const auto sorting = [&](gl::Program& program, std::vector<std::string> defines) {
+        if (!program)
+            program = compiled("display.vert.glsl", "surfaces_sorted.frag.glsl",
+                               with_samples(std::move(defines), samples));
+        return program.name();
+    };
+    return {.fragments = sorting(stored.fragments[samples], {"FRAGMENTS"}),
+            .sorted = sorting(stored.sort[{samples, maps}], stored_defines(maps)),
+            .nothing = nothing.name()};
+}
+
+std::shared_ptr<const GpuSurfaces> Renderer::State::surfaces_for(const Scene& scene,
+                                                                 const RenderTarget& target,
+                                                                 Features features, Reuse wanted) {
+    // Of the mirrored direction, which the other modes' sharp lobes follow, no change over the pixel is kept.
+    if (has(features, Feature::Sharp) && !has(features, Feature::Fitted)) return {};
+    constexpr int most_triangles = 1 << 24;  // the largest numbers that floats tell apart
+    if (!reuse || wanted == Reuse::None || !scene.mesh || scene.view.debug != DebugView::Final ||
+        target.samples > 4 || scene.mesh->index_count / 3 >= most_triangles)
+        return {};
+    const Features maps = features & kMaps;
+    if (gl::SurfaceScratch::bytes_for(target.size, target.samples, kind_of(maps)) > kMostScratchBytes)
+        return {};
+    const SurfaceKey key = key_of(scene, maps, target.size, target.samples);
+    if (auto found = kept_surfaces.find(key)) {
+        if (++scratch_idle > kIdleScratch) scratch = {};
+        return found;
+    }
+    // Software spends more on small triangles than on keeping what lies under them.
+    const bool at_once =
+        wanted == Reuse::Expected ||
+        (gl::is_software() &&
+         gl::SurfaceScratch::bytes_for(target.size, target.samples, kind_of(maps)) <= kSmallScratchBytes);
+    if (!at_once && !kept_surfaces.was_drawn(key)) return {};
+    auto made = rasterised(scene, target, maps);
+    kept_surfaces.keep(key, made);
+    // One view's camera stood still for this; a sheet's is likely to move on.
+    scratch_idle = 0;
+    if (!at_once) scratch = {};
+    return made;
+}
+
+std::shared_ptr<const GpuSurfaces> Renderer::State::rasterised(const Scene& scene, const RenderTarget& target,
+                                                               Features maps) {
+    if (!scratch.fits(target.size, target.samples, kind_of(maps)))
+        scratch.make(target.size, target.samples, kind_of(maps));
+    set_switches();
+    scratch.begin();
+    const auto frame = make_frame_block(scene.camera, scene.view, target.size, {}, 0.0f);
+    upload_block(frame_rows, gl::kFrameSlot, frame);
+    upload_block(material_rows, gl::kMaterialSlot,
+                 make_material_block(with_plain_values(scene.material), maps, 1.0f));
+    bind_maps(scene);
+    gl::Program& program = stored.rasterise[maps];
+    if (!program) program = compiled("mesh.vert.glsl", "surfaces.frag.glsl", stored_defines(maps));
+    glUseProgram(program.name());
+    const int calls = gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
+    count_draw(std::uint64_t(calls) * std::uint64_t(scene.mesh->index_count) / 3, std::uint64_t(calls));
+    if (!stored.behind) stored.behind = compiled("background.vert.glsl", "surfaces_behind.frag.glsl", {});
+    glDepthMask(GL_FALSE);
+    glUseProgram(stored.behind.name());
+    glBindVertexArray(nothing.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    ++work.surfaces_rasterised;
+    count_draw(3, 3);
+    return std::make_shared<GpuSurfaces>(scratch.finish(surface_programs(target.samples, maps)));
+}
+
+void Renderer::State::shade_stored(const Scene& scene, const GpuEnvironment& environment,
+                                   RenderTarget& target, std::shared_ptr<const GpuSurfaces> from) {
+    set_switches();
+    gl::begin_shading(target.stored, from, target.full_float);
+    const Features features = features_for(scene, environment);
+    const auto frame = make_frame_block(scene.camera, scene.view, target.size, layout_of(environment),
+                                        gl::largest_radiance(target));
+    upload_block(frame_rows, gl::kFrameSlot, frame);
+    upload_block(material_rows, gl::kMaterialSlot,
+                 make_material_block(scene.material, features, frame.camera_position.w));
+    bind_light(environment);
+    gl::bind_surface_layers(*from);
+    gl::shade_rows(*from, gl::StoredRows::Mesh, stored_surface(features).name(), nothing.name());
+    ++work.views_from_surfaces;
+    count_draw(1);
+    if (scene.view.background == Background::Plain) return;
+    gl::shade_rows(*from, gl::StoredRows::Behind, background(scene.view.background, true).name(),
+                   nothing.name());
+    count_draw(1);
+}
+
+void Renderer::State::draw_resolved(const RenderTarget& target) {
+    gl::Program& program = stored.resolve[target.samples];
+    if (!program)
+        program = compiled("display.vert.glsl", "resolved.frag.glsl",
+                           with_samples({"HAS_STORED", kStoredWidth}, target.samples));
+    bind_texture(gl::kPictureUnit, GL_TEXTURE_2D, target.stored.colors);
+    gl::bind_surface_pixels(*target.stored.surfaces);
+    gl::draw_all(program.name(), nothing.name(), {0, 0, target.size});
+}
+
+bool Renderer::same_surface(const Scene& a, const Scene& b) {
+    const auto key = [](const Scene& scene) {
+        std::bitset<kMapSlots> bound;
+        for (std::size_t i = 0; i < scene.maps.size(); ++i) bound[i] = scene.maps[i] != nullptr;
+        return key_of(scene, features_of(scene.material, bound, scene.view, 1.0f) & kMaps, {}, 1);
+    };
+    return a.mesh && key(a) == key(b);
+}
+
+}  // namespace patina

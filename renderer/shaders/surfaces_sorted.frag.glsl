@@ -1,0 +1,53 @@
+// Fragments laid side by side, each once however many samples it covers. With FRAGMENTS: instead, which triangle lies under
+// each of a pixel's samples.
+#ifdef SAMPLES
+#define Samples sampler2DMS
+#else
+#define Samples sampler2D
+#endif
+
+#ifdef FRAGMENTS
+uniform Samples picture;
+out vec4 fragments;
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    fragments = vec4(texelFetch(picture, at, 0).r);
+#ifdef SAMPLES
+    for (int i = 1; i < SAMPLES; ++i) fragments[i] = texelFetch(picture, at, i).r;
+#endif
+}
+#else
+uniform usampler2D fragment_places;   // x, y and sample
+uniform Samples stored_normals;
+uniform Samples stored_views;
+uniform Samples stored_turns;
+layout(location = 0) out vec4 sorted_normal;
+layout(location = 1) out vec4 sorted_view;
+layout(location = 2) out vec4 sorted_turn;
+#ifdef HAS_STORED_MAPS
+uniform Samples stored_colors;
+uniform Samples stored_scalars;
+layout(location = 3) out vec4 sorted_color;
+layout(location = 4) out vec4 sorted_scalar;
+#endif
+#ifdef HAS_EMISSION_MAP
+uniform Samples stored_emissions;
+layout(location = 5) out vec4 sorted_emission;
+#endif
+
+void main() {
+    uvec3 place = texelFetch(fragment_places, ivec2(gl_FragCoord.xy), 0).rgb;
+    ivec2 at = ivec2(place.xy);
+    int i = int(place.z);
+    sorted_normal = texelFetch(stored_normals, at, i);
+    sorted_view = texelFetch(stored_views, at, i);
+    sorted_turn = texelFetch(stored_turns, at, i);
+#ifdef HAS_STORED_MAPS
+    sorted_color = texelFetch(stored_colors, at, i);
+    sorted_scalar = texelFetch(stored_scalars, at, i);
+#endif
+#ifdef HAS_EMISSION_MAP
+    sorted_emission = texelFetch(stored_emissions, at, i);
+#endif
+}
+#endif
