@@ -118,9 +118,10 @@ void Loop::think() {
 
 bool Loop::needs_frame() const {
     if (window_.minimized()) return false;
-    return frames_wanted_ > 0 || animating_ || (!editor_.document.sheet && meter_.busy()) ||
-           editor_.changes != changes_shown_ || editor_.thumbnails.version() != thumbnails_shown_ ||
-           jobs_.running() != jobs_shown_ || editor_.reconciler.pending() != pending_shown_ ||
+    return frames_wanted_ > 0 || animating_ || window_.time_s() >= redraw_at_s_ ||
+           (!editor_.document.sheet && meter_.busy()) || editor_.changes != changes_shown_ ||
+           editor_.thumbnails.version() != thumbnails_shown_ || jobs_.running() != jobs_shown_ ||
+           editor_.reconciler.pending() != pending_shown_ ||
            (window_.wants_text() && window_.time_s() - last_frame_s_ >= kCaretSeconds) ||
            (wants_refining() && window_.time_s() - changed_s_ >= kStillSeconds) ||
            (editor_.document.sheet
@@ -227,6 +228,7 @@ void Loop::after_frame(const ui::PanelContext& context) {
     update_maps(editor_);
     probed_ = context.result.probed;
     animating_ = context.result.wants_redraw;
+    redraw_at_s_ = last_frame_s_ + context.result.redraw_in_s;
     if (editor_.clipboard) window_.set_clipboard(*std::exchange(editor_.clipboard, std::nullopt));
 }
 
@@ -249,6 +251,7 @@ double Loop::sleep_s() const {
     if (window_.wants_text()) wait = std::min(wait, kCaretSeconds);
     if (wants_refining()) wait = std::min(wait, kStillSeconds);
     if (editor_.thumbnails.busy()) wait = std::min(wait, kAnimationSeconds);
+    if (!window_.minimized()) wait = std::min(wait, redraw_at_s_ - window_.time_s());
     if (drive_) wait = std::min(wait, 0.02);
     return std::max(wait, 0.001);
 }

@@ -11,6 +11,7 @@
 #include "app/window.h"
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -97,6 +98,7 @@ private:
     std::vector<Jobs::Status> jobs_shown_;
     bool pending_shown_ = false;
     double last_frame_s_ = 0.0;
+    double redraw_at_s_ = std::numeric_limits<double>::infinity();  ///< of the window's time
     std::optional<ProcessMark> first_lit_frame_;
     std::string window_title_;
     std::optional<ui::Drop> drop_;

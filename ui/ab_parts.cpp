@@ -64,8 +64,11 @@ bool drag_split_line(const Rect& rect, bool& held, float& at) {
 }
 
 bool blinks_to_second(PanelContext& context) {
-    context.result.wants_redraw = true;
-    return std::fmod(ImGui::GetTime(), 1.0) >= 0.5;
+    constexpr double after = 0.01;  // a frame just before the change would be followed by another
+    const double phase = std::fmod(ImGui::GetTime(), 1.0);
+    const double left = (phase < 0.5 ? 0.5 : 1.0) - phase;
+    context.result.redraw_in_s = std::min(context.result.redraw_in_s, left + after);
+    return phase >= 0.5;
 }
 
 void draw_ramp_legend(PanelContext& context, const RampLegend& legend, float x0, float y1) {

@@ -21,6 +21,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -360,6 +361,7 @@ struct WorkspaceResult {
     std::optional<ProbedPoint> probed;
     bool turn_all_lights = false;  ///< a turn of the light in this frame is meant for all views
     bool wants_redraw = false;     ///< something moves by itself: draw another frame soon
+    double redraw_in_s = std::numeric_limits<double>::infinity();  ///< something changes by itself then
 };
 
 struct PanelContext {

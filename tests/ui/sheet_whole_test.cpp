@@ -168,7 +168,11 @@ click sheet.how.flip
 wait idle
 expect item viewport.legend.flip
 click sheet.how.blink
+hover sheet.view.1 at 0.5 0.5
 wait 5 frames
+mark
+wait 2 seconds
+expect frames<20
 click sheet.how.split
 wait idle
 click sheet.back
