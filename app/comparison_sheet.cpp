@@ -224,7 +224,8 @@ RenderTarget& ComparisonScenes::target(glm::ivec2 size_px) {
     return *handle;
 }
 
-/// Where it pays to compile for it. One camera and mesh: presets without maps share a surface, and so do the lightings of each preset.
+/// Where it pays to compile for it. One camera and mesh: presets without maps share a surface, and so do the
+/// lightings of each preset.
 Reuse ComparisonScenes::reuse() const {
     return places_of(comparison_).size() > 2 ? Reuse::Expected : Reuse::None;
 }

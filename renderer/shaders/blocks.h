@@ -55,8 +55,8 @@ PATINA_BLOCK(MaterialBlock) {
     vec4 uv_offset;
 };
 
-// A slice's points of the reference: a direction drawn from the light and its density; the radiance from there; what a
-// direction of the reflection is drawn with: cos φ, sin φ, u, choice of lobe.
+// A slice's points of the reference: a direction drawn from the light and its density; the radiance from
+// there; what a direction of the reflection is drawn with: cos φ, sin φ, u, choice of lobe.
 PATINA_BLOCK(PointBlock) { vec4 point_rows[3 * PATINA_MOST_POINTS]; };
 
 #ifdef __cplusplus

@@ -14,7 +14,9 @@ namespace patina {
 
 namespace fuzz {
 /// How googletest, which finds it by this name, lists a case.
-void PrintTo(const Target& target, std::ostream* out) { *out << "damaged copies of a " << target.name << " file"; }
+void PrintTo(const Target& target, std::ostream* out) {
+    *out << "damaged copies of a " << target.name << " file";
+}
 }  // namespace fuzz
 
 namespace {
