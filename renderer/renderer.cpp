@@ -48,6 +48,23 @@ void Renderer::State::draw_background(Background shown) {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+Features Renderer::State::prepare(const Scene& scene, const GpuEnvironment& environment,
+                                  const RenderTarget& target) {
+    const Features features = features_for(scene, environment);
+    const auto frame = make_frame_block(scene.camera, scene.view, target.size, layout_of(environment),
+                                        gl::largest_radiance(target));
+    upload_block(frame_rows, gl::kFrameSlot, frame);
+    upload_block(material_rows, gl::kMaterialSlot,
+                 make_material_block(scene.material, features, frame.camera_position.w));
+    bind_light(environment);
+    return features;
+}
+
+void Renderer::State::draw_counted_mesh(const Scene& scene) {
+    const int calls = gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
+    count_draw(std::uint64_t(calls) * std::uint64_t(scene.mesh->index_count) / 3, std::uint64_t(calls));
+}
+
 void Renderer::State::draw_radiance(const Scene& scene, const GpuEnvironment& environment,
                                     RenderTarget& target, std::optional<int> rival_samples) {
     target.stored.surfaces.reset();
@@ -59,20 +76,13 @@ void Renderer::State::draw_radiance(const Scene& scene, const GpuEnvironment& en
     glClearBufferfv(GL_COLOR, 0, empty);
     glClearBufferfv(GL_DEPTH, 0, &far);
 
-    const Features features = features_for(scene, environment);
-    const auto frame = make_frame_block(scene.camera, scene.view, target.size, layout_of(environment),
-                                        gl::largest_radiance(target));
-    upload_block(frame_rows, gl::kFrameSlot, frame);
-    upload_block(material_rows, gl::kMaterialSlot,
-                 make_material_block(scene.material, features, frame.camera_position.w));
-    bind_light(environment);
+    const Features features = prepare(scene, environment, target);
     if (scene.mesh) {
         bind_maps(scene);
         const gl::Program& program =
             rival_samples ? rival(reference_features(features), *rival_samples) : surface(features);
         glUseProgram(program.name());
-        const int calls = gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
-        count_draw(std::uint64_t(calls) * std::uint64_t(scene.mesh->index_count) / 3, std::uint64_t(calls));
+        draw_counted_mesh(scene);
     }
     if (scene.view.background == Background::Plain || is_data_view(scene.view.debug)) return;
     draw_background(scene.view.background);

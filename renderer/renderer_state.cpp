@@ -171,7 +171,7 @@ const gl::Program& Renderer::State::display(int samples, Tonemap tonemap, bool s
     if (program) return program;
     std::vector<std::string> defines{"TONEMAP=" + std::to_string(int(tonemap))};
     if (samples > 1) defines.push_back("SAMPLES=" + std::to_string(samples));
-    if (stored_picture) defines.insert(defines.end(), {"HAS_STORED", kStoredWidth});
+    if (stored_picture) defines.insert(defines.end(), {"HAS_STORED", stored_width()});
     program = compiled("display.vert.glsl", "display.frag.glsl", defines);
     return program;
 }

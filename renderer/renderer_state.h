@@ -38,7 +38,7 @@ void upload_block(const gl::Buffer& buffer, GLuint slot, const Block& block) {
     glBindBufferBase(GL_UNIFORM_BUFFER, slot, buffer.name());
 }
 
-inline constexpr const char* kStoredWidth = "STORED_WIDTH=1024u";
+inline std::string stored_width() { return "STORED_WIDTH=" + std::to_string(GpuSurfaces::kWidth) + "u"; }
 inline constexpr int kIdleScratch = 32;  ///< pictures after which where they were rasterised is given back
 
 /// By what decides their text.
@@ -81,6 +81,9 @@ struct Renderer::State {
     const gl::Program& background(Background background, bool stored = false);
     const gl::Program& display(int samples, Tonemap tonemap, bool stored);
     void bind_light(const GpuEnvironment& environment) const;
+    /// The blocks and the light of a picture; what its shaders are chosen by.
+    Features prepare(const Scene& scene, const GpuEnvironment& environment, const RenderTarget& target);
+    void draw_counted_mesh(const Scene& scene);
     void draw_radiance(const Scene& scene, const GpuEnvironment& environment, RenderTarget& target,
                        std::optional<int> rival_samples = {});
     void bind_maps(const Scene& scene) const;

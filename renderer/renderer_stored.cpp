@@ -126,8 +126,7 @@ std::shared_ptr<const GpuSurfaces> Renderer::State::rasterised(const Scene& scen
     gl::Program& program = stored.rasterise[maps];
     if (!program) program = compiled("mesh.vert.glsl", "surfaces.frag.glsl", stored_defines(maps));
     glUseProgram(program.name());
-    const int calls = gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
-    count_draw(std::uint64_t(calls) * std::uint64_t(scene.mesh->index_count) / 3, std::uint64_t(calls));
+    draw_counted_mesh(scene);
     if (!stored.behind) stored.behind = compiled("background.vert.glsl", "surfaces_behind.frag.glsl", {});
     glDepthMask(GL_FALSE);
     glUseProgram(stored.behind.name());
@@ -142,13 +141,7 @@ void Renderer::State::shade_stored(const Scene& scene, const GpuEnvironment& env
                                    RenderTarget& target, std::shared_ptr<const GpuSurfaces> from) {
     set_switches();
     gl::begin_shading(target.stored, from, target.full_float);
-    const Features features = features_for(scene, environment);
-    const auto frame = make_frame_block(scene.camera, scene.view, target.size, layout_of(environment),
-                                        gl::largest_radiance(target));
-    upload_block(frame_rows, gl::kFrameSlot, frame);
-    upload_block(material_rows, gl::kMaterialSlot,
-                 make_material_block(scene.material, features, frame.camera_position.w));
-    bind_light(environment);
+    const Features features = prepare(scene, environment, target);
     gl::bind_surface_layers(*from);
     gl::shade_rows(*from, gl::StoredRows::Mesh, stored_surface(features).name(), nothing.name());
     ++work.views_from_surfaces;
@@ -163,7 +156,7 @@ void Renderer::State::draw_resolved(const RenderTarget& target) {
     gl::Program& program = stored.resolve[target.samples];
     if (!program)
         program = compiled("display.vert.glsl", "resolved.frag.glsl",
-                           with_samples({"HAS_STORED", kStoredWidth}, target.samples));
+                           with_samples({"HAS_STORED", stored_width()}, target.samples));
     bind_texture(gl::kPictureUnit, GL_TEXTURE_2D, target.stored.colors);
     gl::bind_surface_pixels(*target.stored.surfaces);
     gl::draw_all(program.name(), nothing.name(), {0, 0, target.size});

@@ -1,6 +1,7 @@
 #include "renderer/lobes/fit_solve.h"
 
 #include "renderer/brdf.h"
+#include "renderer/core/least_squares.h"
 #include "renderer/lobes/fit_truth.h"
 
 #include <glm/geometric.hpp>
@@ -50,25 +51,6 @@ struct Target {
 };
 
 using Step = std::array<double, kMost>;
-
-/// Symmetric positive definite A x = b by Cholesky, in place.
-Step solve(std::array<Step, kMost> a, Step b, int n) {
-    for (int j = 0; j < n; ++j) {
-        for (int k = 0; k < j; ++k)
-            for (int i = j; i < n; ++i) a[i][j] -= a[i][k] * a[j][k];
-        const double root = std::sqrt(std::max(a[j][j], 1e-30));
-        for (int i = j; i < n; ++i) a[i][j] /= root;
-    }
-    for (int i = 0; i < n; ++i) {
-        for (int k = 0; k < i; ++k) b[i] -= a[i][k] * b[k];
-        b[i] /= a[i][i];
-    }
-    for (int i = n - 1; i >= 0; --i) {
-        for (int k = i + 1; k < n; ++k) b[i] -= a[k][i] * b[k];
-        b[i] /= a[i][i];
-    }
-    return b;
-}
 
 class Fitter {
 public:
@@ -235,7 +217,7 @@ private:
                 a[k][k] += damping_[c] * (a[k][k] + 1e-4);
                 b[k] = -normal.b[k] - pull[k] * (nodes_[c][k] - wanted[k]);
             }
-            const Step step = solve(a, b, n);
+            const Step step = solve_symmetric(a, b, n);
             Step next = nodes_[c];
             for (int k = 0; k < n; ++k) next[k] += std::clamp(step[k], -0.3, 0.3);
             bound(roughness, next);

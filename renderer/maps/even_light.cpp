@@ -1,5 +1,7 @@
 #include "renderer/maps/even_light.h"
 
+#include "renderer/core/least_squares.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,23 +39,8 @@ Terms fitted(const std::vector<Sample>& samples, int n) {
             b[i] += weighted * sample.value;
             for (int j = 0; j <= i; ++j) a[i][j] += weighted * sample.terms[j];
         }
-    for (int i = 0; i < n; ++i) {
-        a[i][i] += 1e-9 * double(samples.size());
-        for (int j = 0; j <= i; ++j) {
-            double sum = a[i][j];
-            for (int k = 0; k < j; ++k) sum -= a[i][k] * a[j][k];
-            a[i][j] = i == j ? std::sqrt(std::max(sum, 1e-30)) : sum / a[j][j];
-        }
-    }
-    for (int i = 0; i < n; ++i) {
-        for (int k = 0; k < i; ++k) b[i] -= a[i][k] * b[k];
-        b[i] /= a[i][i];
-    }
-    for (int i = n - 1; i >= 0; --i) {
-        for (int k = i + 1; k < n; ++k) b[i] -= a[k][i] * b[k];
-        b[i] /= a[i][i];
-    }
-    return b;
+    for (int i = 0; i < n; ++i) a[i][i] += 1e-9 * double(samples.size());
+    return solve_symmetric(a, b, n);
 }
 
 double value_of(const Terms& polynomial, const Terms& terms, int n) {

@@ -55,6 +55,12 @@ private:
 
 /// Writes the script and runs it to its end. arguments come before --drive.
 Outcome drive(const Folder& home, const std::string& script, std::vector<std::string> arguments = {});
+/// Its script came to the end without a failed expectation; needs <gtest/gtest.h>.
+#define EXPECT_DRIVEN(outcome)                        \
+    do {                                              \
+        const patina::test::Outcome seen = (outcome); \
+        EXPECT_EQ(seen.status, 0) << seen.errors;     \
+    } while (false)
 /// Starts it and comes back at once.
 std::vector<std::string> drive_arguments(const Folder& home, const std::string& script,
                                          std::vector<std::string> arguments = {});

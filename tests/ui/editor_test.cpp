@@ -14,12 +14,6 @@ using namespace patina;
 using namespace patina::test;
 namespace fs = std::filesystem;
 
-#define EXPECT_DRIVEN(outcome)                    \
-    do {                                          \
-        const Outcome seen = (outcome);           \
-        EXPECT_EQ(seen.status, 0) << seen.errors; \
-    } while (false)
-
 /// A scanned material as it is downloaded: metal with rust, packed maps, a DirectX normal map.
 fs::path make_scan(const Folder& home) {
     const fs::path folder = home / "Rusty_Metal_2K";

@@ -11,12 +11,6 @@ namespace {
 
 using namespace test;
 
-#define EXPECT_DRIVEN(outcome)                    \
-    do {                                          \
-        const Outcome seen = (outcome);           \
-        EXPECT_EQ(seen.status, 0) << seen.errors; \
-    } while (false)
-
 TEST(EditorSheet, is_built_turned_undone_saved_and_opened_again) {
     const Folder home;
     EXPECT_DRIVEN(drive(home, R"(

@@ -14,12 +14,6 @@ namespace {
 
 using namespace test;
 
-#define EXPECT_DRIVEN(outcome)                    \
-    do {                                          \
-        const Outcome seen = (outcome);           \
-        EXPECT_EQ(seen.status, 0) << seen.errors; \
-    } while (false)
-
 /// A rough wall, lit from the left.
 void write_wall(const std::filesystem::path& file) {
     Image wall = make_image(160, 160, 3, PixelType::U8);
