@@ -38,9 +38,10 @@ std::vector<const Benchmark*> chosen(const std::vector<std::string>& names) {
         if (names.empty() || std::ranges::find(names, each.name) != names.end()) benchmarks.push_back(&each);
     for (const std::string& name : names) {
         if (std::ranges::find(kBenchmarks, name, &Benchmark::name) != kBenchmarks.end()) continue;
-        std::string known;
-        for (const Benchmark& each : kBenchmarks) known.append(" ").append(each.name);
-        throw std::runtime_error("there is no benchmark '" + name + "'; there are:" + known);
+        std::string sentence = "there is no benchmark '";
+        sentence.append(name).append("'; there are:");
+        for (const Benchmark& each : kBenchmarks) sentence.append(" ").append(each.name);
+        throw std::runtime_error(sentence);
     }
     return benchmarks;
 }

@@ -91,6 +91,7 @@ void draw_ab_choice(PanelContext& context) {
         if (choices[i] == ab.against) index = int(i);
     }
     std::vector<Option> options;
+    options.reserve(titles.size());
     for (const std::string& title : titles) options.push_back({title, "What the view is held against."});
     if (combo(context, "sheet.against", options, index,
               {.width = px(190), .tooltip = "Hold the view against another one, or against its photo."}))
