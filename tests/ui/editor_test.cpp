@@ -284,12 +284,14 @@ expect dirty            # the save was called off, so the new document was, too
 )"));
 }
 
-TEST(Editor, shows_an_imported_set_on_the_mesh_that_lies_with_it) {
+TEST(Editor, shows_an_imported_set_on_the_mesh_and_under_the_light_that_lie_with_it) {
     const Folder home;
     const fs::path scan = make_scan(home);
     std::ofstream(scan / "plate.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+    save_image(scan / "evening.hdr", make_image(32, 16, 3, PixelType::F32));
     EXPECT_DRIVEN(drive(home, "wait idle\ndrop " + scan.string() +
-                                  "\nwait until item import.apply\nclick import.apply\nwait idle\nexpect "
+                                  "\nwait until item import.apply\nclick import.apply\nwait until "
+                                  "environment~evening.hdr\nwait idle\nexpect "
                                   "mesh~plate.obj\nexpect triangles=2\nexpect albedo.state=ok\nexpect "
                                   "albedo.map~BaseColor\n"));
 }
