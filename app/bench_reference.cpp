@@ -1,5 +1,5 @@
-// `patina bench reference`: how long the reference takes to a clean picture, drawn in steps as the editor draws
-// it, and how far its picture is from the truth after so many points.
+// `patina bench reference`: how long the reference takes to a clean picture, drawn in steps as the editor
+// draws it, and how far its picture is from the truth after so many points.
 #include "app/accuracy.h"
 #include "app/bench.h"
 #include "app/headless.h"
@@ -28,8 +28,9 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr int kSidePx = 512;
-constexpr int kErrorSidePx = 96;  ///< errors by samples do not depend on the size; a long reference's time does
-constexpr double kClean = 0.01;   ///< 95 of 100 pixels are known to 1 %: no grain is seen
+constexpr int kErrorSidePx =
+    96;  ///< errors by samples do not depend on the size; a long reference's time does
+constexpr double kClean = 0.01;  ///< 95 of 100 pixels are known to 1 %: no grain is seen
 constexpr double kPatienceSeconds = 60.0;
 constexpr std::array kSamples{64, 256, 1024};
 
@@ -137,7 +138,8 @@ Json bench_reference(const BenchContext& context) {
     for (const std::string& each : context.environments)
         if (each.find('.') != std::string::npos) environments.push_back(each);  // those given as files
     const int truth_samples = context.quick ? 8192 : 32768;
-    Json json{{"renderer", gl.description()}, {"side_px", kSidePx}, {"clean", kClean}, {"cases", Json::array()}};
+    Json json{
+        {"renderer", gl.description()}, {"side_px", kSidePx}, {"clean", kClean}, {"cases", Json::array()}};
     std::printf("%-12s %-14s %9s %9s %9s %8s %10s %30s\n", "environment", "material", "first", "256", "clean",
                 "samples", "turn", "rms of 64, 256, 1024 samples");
     for (const std::string& environment : environments)

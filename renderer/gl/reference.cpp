@@ -53,10 +53,6 @@ void make_textures(ReferenceTarget& target) {
                  GL_FLOAT, nullptr);
     no_filter(GL_TEXTURE_2D_ARRAY);
     glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
-    target.depth = Renderbuffer::make();
-    glBindRenderbuffer(GL_RENDERBUFFER, target.depth.name());
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, size.x, size.y);
-    glBindRenderbuffer(GL_RENDERBUFFER, 0);
 }
 
 void make_framebuffers(ReferenceTarget& target) {
@@ -65,7 +61,6 @@ void make_framebuffers(ReferenceTarget& target) {
         glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffers[i].name());
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.sum.name(), 0);
         glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, target.replicates.name(), 0, i);
-        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target.depth.name());
         const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
         glDrawBuffers(2, both);
         require_complete(target.size);
@@ -107,24 +102,31 @@ void set_reference_points(ReferenceTarget& target, const blocks::PointBlock& poi
     glBufferData(GL_UNIFORM_BUFFER, sizeof points, &points, GL_STREAM_DRAW);
 }
 
+void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps) {
+    if (!target.surface.fits(target.size, 1, maps)) {
+        target.surface.make(target.size, 1, maps);
+        for (const Framebuffer& framebuffer : target.framebuffers) {
+            glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+            target.surface.share_depth();
+            require_complete(target.size);
+        }
+    }
+    target.surface.begin();
+}
+
 void begin_reference_slice(const ReferenceTarget& target, int replicate, float weight) {
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffers[replicate].name());
-    glViewport(0, 0, target.size.x, target.size.y);
-    const GLfloat far = 1.0f;
-    glClearBufferfv(GL_DEPTH, 0, &far);
+    target.surface.bind_layers();
+    glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE);
     glBlendColor(0.0f, 0.0f, 0.0f, weight);
 }
 
-void begin_reference_pass(ReferencePass pass) {
-    const GLboolean color = pass == ReferencePass::Depth ? GL_FALSE : GL_TRUE;
-    const GLboolean replicate = pass == ReferencePass::Surface ? GL_TRUE : GL_FALSE;
-    glColorMaski(0, color, color, color, color);
-    glColorMaski(1, replicate, replicate, replicate, replicate);
-    glDepthMask(pass == ReferencePass::Depth ? GL_TRUE : GL_FALSE);
-    glDepthFunc(pass == ReferencePass::Surface ? GL_EQUAL : GL_LEQUAL);
+void begin_reference_background() {
+    glColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glEnable(GL_DEPTH_TEST);
 }
 
 void end_reference_slice() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/gl/environment.h"
+#include "renderer/gl/surfaces.h"
 #include "renderer/gl/target.h"
 #include "renderer/ibl/light_sampler.h"
 #include "renderer/shaders/blocks.h"
@@ -17,10 +18,10 @@ namespace patina {
 struct ReferenceTarget {
     static constexpr int kReplicates = 8;
     glm::ivec2 size{1};
-    gl::Texture sum;         ///< of all replicates, slices by their weights; alpha: coverage likewise
-    gl::Texture replicates;  ///< one layer each: likewise, the mean of the three channels, the mesh only
-    gl::Buffer points;       ///< blocks.h's PointBlock
-    gl::Renderbuffer depth;
+    gl::Texture sum;             ///< of all replicates, slices by their weights; alpha: coverage likewise
+    gl::Texture replicates;      ///< one layer each: likewise, the mean of the three channels, the mesh only
+    gl::Buffer points;           ///< blocks.h's PointBlock
+    gl::SurfaceScratch surface;  ///< what the slice's picture shows
     std::array<gl::Framebuffer, kReplicates> framebuffers;  ///< sum and one replicate
     gl::Program mean;
     gl::VertexArray nothing;
@@ -35,12 +36,12 @@ void clear_reference(ReferenceTarget& target);
 /// The points of the slices that follow.
 void set_reference_points(ReferenceTarget& target, const blocks::PointBlock& points);
 
-/// Between begin and end what is drawn is added to a replicate and to the sum, weight (0…1) times; depth is
-/// clear.
+/// Between begin and end the mesh's material is drawn into target.surface.
+void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps);
+/// Between begin and end what is drawn is added to the sum, weight (0…1) times: the surface, in a replicate
+/// too; then what is behind it, at its depth.
 void begin_reference_slice(const ReferenceTarget& target, int replicate, float weight);
-/// In turn: depth alone; colour where depth is exactly what is there; what is behind, which no replicate has.
-enum class ReferencePass { Depth, Surface, Background };
-void begin_reference_pass(ReferencePass pass);
+void begin_reference_background();
 void end_reference_slice();
 
 /// The mean so far into an ordinary target's radiance (one sample a pixel, the same size).

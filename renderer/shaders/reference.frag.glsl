@@ -10,9 +10,10 @@
 #include "brdf.glsl"
 #include "light.glsl"
 #include "material.glsl"
-#include "surface.glsl"
+#include "stored.glsl"
 
 uniform sampler2D brdf_table;         // A and B over (√NoV, roughness)
+uniform sampler2D stored_fragments;   // of which triangle; 0: nothing
 uniform vec2 reference_slice;         // how many points; 1/∫ mean radiance dω, exposed
 
 layout(location = 0) out vec4 picture_color;
@@ -106,18 +107,19 @@ vec3 estimate(Sampled p, mat3 frame, int i) {
 }
 
 void main() {
-    vec2 st = vec2(map_uv.x, 1.0 - map_uv.y);   // maps are stored top row first
-    vec3 V = normalize(camera_position.xyz - world_position);
-    Surface s = surface_of(read_maps(st));
+    bool is_surface = texelFetch(stored_fragments, ivec2(gl_FragCoord.xy), 0).r > 0.0;
+    Geometry g = stored_geometry();
+    Surface s = surface_of(stored_maps());
     s.roughness = widened_roughness(s.roughness, s.spread);
-    vec3 N = shading_normal(V, st);
-    mat3 frame = frame_around(environment_direction(N));
-    vec3 local = environment_direction(V) * frame;
+    mat3 frame = frame_around(environment_direction(g.N));
+    vec3 local = environment_direction(g.V) * frame;
     local.z = max(local.z, 1e-4);
     Sampled p = make_sampled(s, normalize(local));
     vec3 sum = vec3(0.0);
-    int count = int(reference_slice.x);
+    // Software renderers go through a loop as often as any of the pixels they shade together, even those that are discarded.
+    int count = is_surface ? int(reference_slice.x) : 0;
     for (int i = 0; i < count; ++i) sum += estimate(p, frame, i);
+    if (!is_surface) discard;
     vec3 color = min(at_least(sum * (s.ao / float(count)) + s.emission, 0.0), vec3(ray_right.w));
     picture_color = vec4(color, 1.0);
     replicate_value = mean_channel(color);
