@@ -136,6 +136,7 @@ void bind_interface(GLuint program) {
         {"stored_emissions", kFirstStoredUnit + 5},
         {"fragment_places", kFragmentPlacesUnit},
         {"stored_fragments", kFragmentPlacesUnit},
+        {"reference_counts", kFragmentPlacesUnit},
         {"fragment_of_pixel", kFragmentOfPixelUnit},
         {"fragments_of_samples", kFragmentsOfSamplesUnit},
     };

@@ -18,12 +18,13 @@ namespace patina {
 struct ReferenceTarget {
     static constexpr int kReplicates = 8;
     glm::ivec2 size{1};
-    gl::Texture sum;             ///< of all replicates, slices by their weights; alpha: coverage likewise
-    gl::Texture replicates;      ///< one layer each: likewise, the mean of the three channels, the mesh only
-    gl::Buffer points;           ///< blocks.h's PointBlock
-    gl::SurfaceScratch surface;  ///< what the slice's picture shows
+    gl::Texture sum;         ///< of all replicates, slices by their weights; alpha: coverage likewise
+    gl::Texture replicates;  ///< one layer each: likewise, the mean of the three channels, the mesh only
+    gl::Texture counts;      ///< two a pixel: points before the counts were set; 1: it gathers, 0: it rests
+    gl::Buffer points;       ///< blocks.h's PointBlock
+    gl::SurfaceScratch surface;                             ///< what the slice's picture shows
     std::array<gl::Framebuffer, kReplicates> framebuffers;  ///< sum and one replicate
-    gl::Program mean;
+    gl::Program mean, resting;
     gl::VertexArray nothing;
 };
 
@@ -33,6 +34,9 @@ namespace gl {
 ReferenceTarget make_reference_target(glm::ivec2 size);
 /// Everything back to black.
 void clear_reference(ReferenceTarget& target);
+/// Two a pixel, as ReferenceTarget::counts, bottom row first: those that rest are left as they are from now
+/// on.
+void set_reference_counts(ReferenceTarget& target, const std::vector<float>& counts);
 /// The points of the slices that follow.
 void set_reference_points(ReferenceTarget& target, const blocks::PointBlock& points);
 
@@ -45,8 +49,8 @@ void begin_reference_background();
 void end_reference_slice();
 
 /// The mean so far into an ordinary target's radiance (one sample a pixel, the same size).
-/// weight: of all slices together, > 0.
-void write_reference_mean(const ReferenceTarget& target, float weight, const RenderTarget& to);
+/// points: since the counts were set, all together > 0; weight: of one of them.
+void write_reference_mean(const ReferenceTarget& target, int points, float weight, const RenderTarget& to);
 
 /// One layer after the other, each bottom row first.
 std::vector<float> read_replicates(const ReferenceTarget& target);
