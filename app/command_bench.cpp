@@ -24,6 +24,7 @@ constexpr std::array kBenchmarks{
     Benchmark{"light", "decoding, baking and reading back environments", bench_light},
     Benchmark{"ibl", "prefiltering: run time against error, method by method", bench_ibl},
     Benchmark{"shading", "shading modes: error against the integral, and cost", bench_shading},
+    Benchmark{"reference", "the reference: time to a clean picture, and error by samples", bench_reference},
     Benchmark{"frame", "one frame by shading mode, features and size", bench_frame},
     Benchmark{"stability", "properties on random cases, and errors against roughness and NoV",
               bench_stability},
