@@ -90,7 +90,13 @@ void Loop::take_events() {
 bool Loop::idle() const {
     return frames_wanted_ == 0 && !animating_ && !more_uploads_ && jobs_.running().empty() &&
            !editor_.reconciler.pending() && !editor_.thumbnails.busy() &&
-           !jobs_.is_running(editor_.autosave_job) && !drop_ && !wants_refining() && !editor_.sheet.report;
+           !jobs_.is_running(editor_.autosave_job) && !drop_ && !wants_refining() && !editor_.sheet.report &&
+           !wants_hints();
+}
+
+/// Nothing goes on that has to come first.
+bool Loop::calm() const {
+    return jobs_.running().empty() && !editor_.reconciler.pending() && !editor_.ui.viewport_drag;
 }
 
 bool Loop::update_reconciler() {
@@ -109,8 +115,8 @@ void Loop::think() {
     const double now_s = window_.time_s();
     more_uploads_ = update_reconciler();
     step_report(editor_);
-    const bool calm = jobs_.running().empty() && !editor_.reconciler.pending() && !editor_.ui.viewport_drag;
-    editor_.thumbnails.step(calm);
+    if (wants_hints()) step_hints(editor_);
+    editor_.thumbnails.step(calm());
     watch_files(editor_, now_s);
     keep_work(editor_, now_s);
     settle(editor_, true);
@@ -136,6 +142,7 @@ void Loop::fill_status() {
     for (const Jobs::Status& job : jobs_shown_)
         status.jobs.push_back(
             {.id = job.id, .label = job.label, .progress = job.started ? job.progress : -1.0f});
+    if (const auto report = report_line(editor_)) status.jobs.insert(status.jobs.begin(), *report);
     status.title = document_title(editor_.document, editor_.file);
     status.file = path_to_utf8(editor_.file.path);
     status.dirty = is_dirty(editor_.document, editor_.file);
@@ -245,7 +252,7 @@ void Loop::drive() {
 }
 
 double Loop::sleep_s() const {
-    if (more_uploads_ || editor_.sheet.report || (drive_ && drive_->busy())) return 0.0;
+    if (more_uploads_ || editor_.sheet.report || wants_hints() || (drive_ && drive_->busy())) return 0.0;
     if (needs_frame()) return 0.0;
     double wait = next_errand_s(editor_, window_.time_s());
     if (window_.wants_text()) wait = std::min(wait, kCaretSeconds);

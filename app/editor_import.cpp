@@ -148,6 +148,12 @@ void take_dropped(Editor& editor, const ui::request::Dropped& dropped) {
     }
     if (dropped.slot && dropped.files.size() == 1 && sorted.maps.size() + sorted.environments.size() == 1)
         return assign_map(editor, *dropped.slot, dropped.files[0]);
+    if (dropped.view && editor.document.sheet && sorted.maps.size() == 1 && dropped.files.size() == 1) {
+        editor.ui.sheet_selected = *dropped.view;
+        editor.ui.right_tab = "sheet";
+        set_photo(editor, *dropped.view, sorted.maps[0]);
+        return say_status(editor, short_name(sorted.maps[0]) + " is held against this view now.");
+    }
     if (folders || !sorted.maps.empty()) return propose_maps(editor, dropped.files);
     if (!sorted.meshes.empty()) use_mesh(editor, sorted.meshes.back());
     if (!sorted.environments.empty()) use_environment(editor, sorted.environments.back());

@@ -58,6 +58,8 @@ private:
     void drive();
     double sleep_s() const;
     bool idle() const;
+    bool calm() const;
+    bool wants_hints() const { return calm() && hints_wanted(editor_); }
     void remember_window();
 
     const EditArgs& args_;

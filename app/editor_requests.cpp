@@ -30,7 +30,7 @@ void step(Editor& editor, const std::optional<Document>& document, const std::st
 void clear_map(Editor& editor, MapSlot slot) { map_of(editor.document.material, slot).map->clear(); }
 
 void cancel_job(Editor& editor, Jobs::Id job) {
-    if (!editor.reconciler.cancel(job)) editor.jobs.stop(job);
+    if (!cancel_report(editor, job) && !editor.reconciler.cancel(job)) editor.jobs.stop(job);
     log_line(editor, ui::Severity::Info, "Cancelled.");
 }
 
@@ -74,13 +74,6 @@ void change_sheet(Editor& editor, const ask_for::ChangeSheet& asked) {
     const std::vector<ViewPlace> now = places_of(sheet);
     const auto found = next ? std::find(now.begin(), now.end(), *next) : now.end();
     if (found != now.end()) editor.ui.sheet_selected = int(found - now.begin());
-}
-
-void set_photo(Editor& editor, const std::string& file) {
-    if (!editor.document.sheet) return;
-    const std::vector<ViewPlace> places = places_of(*editor.document.sheet);
-    const auto view = std::size_t(std::max(editor.ui.sheet_selected, 0));
-    if (view < places.size()) lighting_at(*editor.document.sheet, places[view]).photo = Photo{.file = file};
 }
 
 void save_as(Editor& editor, const std::string& file) {
@@ -134,7 +127,7 @@ auto comparison_verbs(Editor& editor) {
                       [&editor](const ask_for::OpenSheet& r) { open_sheet(editor, r.file); },
                       [&editor](const ask_for::SaveSheet&) { save_sheet(editor); },
                       [&editor](const ask_for::SaveSheetAs& r) { save_sheet_as(editor, r.file); },
-                      [&editor](const ask_for::SetPhoto& r) { set_photo(editor, r.file); },
+                      [&editor](const ask_for::SetPhoto& r) { set_photo(editor, editor.ui.sheet_selected, r.file); },
                       [&editor](const ask_for::PickCard& r) { pick_card(editor, r); },
                       [&editor](const ask_for::SetMapPhoto& r) { set_map_photo(editor, r.file); },
                       [&editor](const ask_for::MapPhotoOfView&) { take_map_photo_of_view(editor); },

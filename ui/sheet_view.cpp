@@ -99,6 +99,7 @@ void draw_cell(PanelContext& context, int view, const Rect& rect) {
     if (!tool && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
         ui.sheet_enlarged = ui.sheet_enlarged == view ? -1 : view;
     if (!tool) probe_view(context, view, rect);
+    if (context.drop && rect.contains(context.drop->position.x, context.drop->position.y)) ui.hit_view = view;
     const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
     const glm::ivec2 size{std::max(1, int(std::lround(rect.width() * pixels.x))),
                           std::max(1, int(std::lround(rect.height() * pixels.y)))};

@@ -13,7 +13,7 @@ if [ ! -x build/fuzz/bin/patina_fuzz ]; then
 fi
 mkdir -p "$found"
 # Slow and large are judged generously: a busy machine must not look like a defect.
-if ! PATINA_FUZZ_TARGET=$target build/fuzz/bin/patina_fuzz -seed="${PATINA_FUZZ_SEED:-1}" -max_total_time="${PATINA_FUZZ_SECONDS:-60}" \
+if ! ASAN_OPTIONS=detect_leaks=0 PATINA_FUZZ_TARGET=$target build/fuzz/bin/patina_fuzz -seed="${PATINA_FUZZ_SEED:-1}" -max_total_time="${PATINA_FUZZ_SECONDS:-60}" \
         -max_len=65536 -rss_limit_mb=2048 -timeout=120 -detect_leaks=0 -print_final_stats=1 \
         -artifact_prefix="$found-failed-" "$found" "tests/fuzz/corpus/$target" >"$found.log" 2>&1; then
     tail -n 40 "$found.log"
