@@ -108,17 +108,21 @@ void Renderer::State::draw_reference(const Scene& scene, const GpuEnvironment& e
         glBindBufferBase(GL_UNIFORM_BUFFER, gl::kPointSlot, target.points.name());
         gl::begin_reference_pass(gl::ReferencePass::Depth);
         glUseProgram(depth_only().name());
-        gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
+        draw_counted_mesh(scene);
         gl::begin_reference_pass(gl::ReferencePass::Surface);
         const gl::Program& program = reference(features, colored_lights(environment));
         glUseProgram(program.name());
         const double light = slice.total * double(exposure);
         glUniform2f(glGetUniformLocation(program.name(), "reference_slice"), float(slice.points),
                     light > 0.0 ? float(1.0 / light) : 0.0f);
-        gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
+        draw_counted_mesh(scene);
     }
     gl::begin_reference_pass(gl::ReferencePass::Background);
-    if (view.background != Background::Plain) draw_background(view.background);
+    if (view.background != Background::Plain) {
+        draw_background(view.background);
+        count_draw(1);
+    }
+    work.reference_points += std::uint64_t(slice.points);
     gl::end_reference_slice();
 }
 
