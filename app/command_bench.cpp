@@ -28,7 +28,6 @@ constexpr std::array kBenchmarks{
     Benchmark{"frame", "one frame by shading mode, features and size", bench_frame},
     Benchmark{"stability", "properties on random cases, and errors against roughness and NoV",
               bench_stability},
-    Benchmark{"views", "views side by side: a turn of the light in one and in nine", bench_views},
     Benchmark{"skip", "what is saved by computing only what a picture needs", bench_skip},
     Benchmark{"start", "the editor's start against a bare window", bench_start},
 };

@@ -122,17 +122,18 @@ auto material_verbs(Editor& editor) {
 }
 
 auto comparison_verbs(Editor& editor) {
-    return Overloaded{[&editor](const ask_for::ShowSheet& r) { show_sheet(editor, r.shown); },
-                      [&editor](const ask_for::ChangeSheet& r) { change_sheet(editor, r); },
-                      [&editor](const ask_for::OpenSheet& r) { open_sheet(editor, r.file); },
-                      [&editor](const ask_for::SaveSheet&) { save_sheet(editor); },
-                      [&editor](const ask_for::SaveSheetAs& r) { save_sheet_as(editor, r.file); },
-                      [&editor](const ask_for::SetPhoto& r) { set_photo(editor, editor.ui.sheet_selected, r.file); },
-                      [&editor](const ask_for::PickCard& r) { pick_card(editor, r); },
-                      [&editor](const ask_for::SetMapPhoto& r) { set_map_photo(editor, r.file); },
-                      [&editor](const ask_for::MapPhotoOfView&) { take_map_photo_of_view(editor); },
-                      [&editor](const ask_for::PickMapCard& r) { pick_map_card(editor, r); },
-                      [&editor](const ask_for::MakeMaps&) { make_maps(editor); }};
+    return Overloaded{
+        [&editor](const ask_for::ShowSheet& r) { show_sheet(editor, r.shown); },
+        [&editor](const ask_for::ChangeSheet& r) { change_sheet(editor, r); },
+        [&editor](const ask_for::OpenSheet& r) { open_sheet(editor, r.file); },
+        [&editor](const ask_for::SaveSheet&) { save_sheet(editor); },
+        [&editor](const ask_for::SaveSheetAs& r) { save_sheet_as(editor, r.file); },
+        [&editor](const ask_for::SetPhoto& r) { set_photo(editor, editor.ui.sheet_selected, r.file); },
+        [&editor](const ask_for::PickCard& r) { pick_card(editor, r); },
+        [&editor](const ask_for::SetMapPhoto& r) { set_map_photo(editor, r.file); },
+        [&editor](const ask_for::MapPhotoOfView&) { take_map_photo_of_view(editor); },
+        [&editor](const ask_for::PickMapCard& r) { pick_map_card(editor, r); },
+        [&editor](const ask_for::MakeMaps&) { make_maps(editor); }};
 }
 
 auto other_verbs(Editor& editor) {
