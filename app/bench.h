@@ -44,8 +44,6 @@ nlohmann::ordered_json bench_shading(const BenchContext& context);
 nlohmann::ordered_json bench_reference(const BenchContext& context);
 /// Cost of light: decoding, baking, reading it back from the disk cache.
 nlohmann::ordered_json bench_light(const BenchContext& context);
-/// Views side by side against one view of the same area.
-nlohmann::ordered_json bench_views(const BenchContext& context);
 /// The editor's start, cold and warm, against a bare window. Needs a display.
 nlohmann::ordered_json bench_start(const BenchContext& context);
 /// Pictures, steps of the artist and lights with skipping and without: time, memory, ledger, difference.

@@ -28,7 +28,6 @@ constexpr std::array kBenchmarks{
     Benchmark{"frame", "one frame by shading mode, features and size", bench_frame},
     Benchmark{"stability", "properties on random cases, and errors against roughness and NoV",
               bench_stability},
-    Benchmark{"views", "views side by side: a turn of the light in one and in nine", bench_views},
     Benchmark{"skip", "what is saved by computing only what a picture needs", bench_skip},
     Benchmark{"start", "the editor's start against a bare window", bench_start},
 };
@@ -39,9 +38,10 @@ std::vector<const Benchmark*> chosen(const std::vector<std::string>& names) {
         if (names.empty() || std::ranges::find(names, each.name) != names.end()) benchmarks.push_back(&each);
     for (const std::string& name : names) {
         if (std::ranges::find(kBenchmarks, name, &Benchmark::name) != kBenchmarks.end()) continue;
-        std::string known;
-        for (const Benchmark& each : kBenchmarks) known.append(" ").append(each.name);
-        throw std::runtime_error("there is no benchmark '" + name + "'; there are:" + known);
+        std::string sentence = "there is no benchmark '";
+        sentence.append(name).append("'; there are:");
+        for (const Benchmark& each : kBenchmarks) sentence.append(" ").append(each.name);
+        throw std::runtime_error(sentence);
     }
     return benchmarks;
 }

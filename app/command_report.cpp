@@ -21,7 +21,7 @@ int run_report(const ReportArgs& args, const Registry& registry) {
                              .picture_px = args.picture_px,
                              .hints = !args.no_hints,
                              .reference_samples = args.reference_samples});
-    do studio.progress.show("drawing the views", float(making.done()) / float(making.views()));
+    do studio.progress.show("drawing the views", making.progress());
     while (making.step());
     save_report(output, making.finish());
     studio.progress.clear();

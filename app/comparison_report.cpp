@@ -75,8 +75,7 @@ ComparisonReport::ComparisonReport(ComparisonScenes& scenes, const Registry& reg
       options_(std::move(options)),
       places_(places_of(comparison_)) {}
 
-bool ComparisonReport::step() {
-    if (shots_.size() == places_.size()) return false;
+void ComparisonReport::draw_view() {
     const ViewPlace place = places_[shots_.size()];
     const Scene scene = scenes_.scene(place);
     const glm::ivec2 size(options_.picture_px);
@@ -89,19 +88,50 @@ bool ComparisonReport::step() {
     if (std::ranges::none_of(materials_, [&](const auto& row) { return row.first == preset.preset; }))
         materials_.emplace_back(preset.preset, scene.material);
     if (light.photo) {
-        // Trials of the hints are drawn smaller: nine roughnesses and seven albedos of every view.
-        const glm::ivec2 small(options_.picture_px / 2);
         const LoadedPhoto& photo = scenes_.photo(light.photo->file);
-        const auto radiance = [&](const Scene& trial) { return scenes_.radiance(trial, small); };
         shot.photo = shoot_photo(*light.photo, photo, scenes_.radiance(scene, size));
         if (options_.hints && shot.photo->residual.pixels > 0)
-            shot.photo->hints = hints_for(photo_in_view(*light.photo, photo.linear, small),
-                                          light.photo->region, scene, radiance);
+            hints_.emplace(photo_in_view(*light.photo, photo.linear, trial_size()), light.photo->region,
+                           scene);
         shot.photo->linear = {};  // not shown
     }
-    if (options_.reference_samples > 0) shot.error = scenes_.error(scene, options_.reference_samples);
+    if (options_.reference_samples > 0) {
+        if (!reference_) reference_.emplace(scenes_.renderer(), options_.reference_samples);
+        reference_->begin(scene);
+        gathers_ = true;
+    }
     shots_.push_back(std::move(shot));
-    return shots_.size() < places_.size();
+}
+
+void ComparisonReport::step_hints() {
+    if (hints_->step([&](const Scene& trial) { return scenes_.radiance(trial, trial_size()); })) return;
+    shots_.back().photo->hints = hints_->sentences();
+    hints_.reset();
+}
+
+void ComparisonReport::step_reference() {
+    if (reference_->step()) return;
+    shots_.back().error = reference_->result();
+    gathers_ = false;
+}
+
+bool ComparisonReport::step() {
+    if (hints_)
+        step_hints();
+    else if (gathers_)
+        step_reference();
+    else if (shots_.size() < places_.size())
+        draw_view();
+    return unfinished() || shots_.size() < places_.size();
+}
+
+float ComparisonReport::progress() const {
+    float of_view = 0.0f;
+    if (gathers_ && !hints_)
+        of_view = 0.5f + 0.5f * reference_->done();
+    else if (hints_)
+        of_view = (gathers_ ? 0.5f : 1.0f) * hints_->done();
+    return (float(done()) + of_view) / float(std::max<std::size_t>(views(), 1));
 }
 
 ReportSection ComparisonReport::sheet() const {
@@ -168,7 +198,7 @@ void ComparisonReport::add_errors(Report& report) const {
                               fixed("%.3f", shot.error->flip), fixed("%.2f %%", 100.0 * shot.error->known)});
     section.table = std::move(table);
     section.notes.push_back("The shading against the reflectance integral, sampled with " +
-                            std::to_string((options_.reference_samples + 7) / 8 * 8) +
+                            std::to_string(reference_->samples()) +
                             " points a pixel, as shares of the light on the object; the last column is how "
                             "well the samples know it.");
     report.sections.push_back(std::move(section));
@@ -263,7 +293,7 @@ ReportSection ComparisonReport::making() const {
     return section;
 }
 
-Report ComparisonReport::finish() {
+Report ComparisonReport::finish() const {
     Report report{.title = comparison_.title.empty() ? "Materials side by side" : comparison_.title,
                   .author = comparison_.author,
                   .made_with = "Made with Patina " PATINA_VERSION};

@@ -3,9 +3,12 @@
 #pragma once
 
 #include "app/comparison_sheet.h"
+#include "app/photo_hints.h"
+#include "app/reference_error.h"
 #include "app/report.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,10 +30,13 @@ public:
                      ComparisonReportOptions options);
 
     std::size_t views() const { return places_.size(); }
-    std::size_t done() const { return shots_.size(); }
-    /// Draws the next view; false when all are drawn.
+    std::size_t done() const { return shots_.size() - (unfinished() ? 1 : 0); }
+    float progress() const;  ///< 0…1
+    /// Draws one picture: of the next view, or a trial for what is said of the last; false when all are
+    /// drawn.
     bool step();
-    Report finish();
+    /// What was drawn, written up. Needs no GPU: a worker may do it.
+    Report finish() const;
 
 private:
     struct Shot {
@@ -40,7 +46,12 @@ private:
         std::optional<PhotoShot> photo;
         std::optional<ReferenceError> error;
     };
-    const Material& material_of(const std::string& preset) const;
+    /// Trials are drawn smaller: nine roughnesses and seven colours of every view with a photo.
+    glm::ivec2 trial_size() const { return glm::ivec2(options_.picture_px / 2); }
+    bool unfinished() const { return hints_ || gathers_; }
+    void draw_view();
+    void step_hints();
+    void step_reference();
     ReportSection sheet() const;
     void add_photos(Report& report) const;
     void add_errors(Report& report) const;
@@ -55,6 +66,9 @@ private:
     ComparisonReportOptions options_;
     std::vector<ViewPlace> places_;
     std::vector<Shot> shots_;
+    std::optional<HintSearch> hints_;           ///< of the last shot
+    std::optional<ReferenceSearch> reference_;  ///< from the first view on that is held against it
+    bool gathers_ = false;                      ///< for the last shot
     std::vector<std::pair<std::string, Material>> materials_;  ///< by the comparison's name of the preset
 };
 

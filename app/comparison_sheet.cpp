@@ -2,8 +2,6 @@
 
 #include "app/paths.h"
 #include "app/sheet.h"
-#include "renderer/core/flip.h"
-#include "renderer/reference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -234,23 +232,6 @@ Image ComparisonScenes::radiance(const Scene& scene, glm::ivec2 size_px) {
     RenderTarget& to = target(size_px);
     renderer_.draw(scene, to, reuse());
     return renderer_.read_radiance(to);
-}
-ReferenceError ComparisonScenes::error(const Scene& scene, int samples) {
-    constexpr glm::ivec2 size(128);
-    Scene truth = scene;
-    truth.view.shading = Shading::Reference;
-    Reference reference(renderer_, size, {.max_samples = (samples + 7) / 8 * 8, .tolerance = 0.0});
-    reference.restart(truth);
-    reference.finish();
-    const TargetHandle gathered = renderer_.make_target(size, 1, TargetPrecision::Full);
-    reference.write(*gathered);
-    const TargetHandle shaded = renderer_.make_target(size, 4, TargetPrecision::Full);
-    renderer_.draw(scene, *shaded);
-    const Image expected = renderer_.read_radiance(*gathered), found = renderer_.read_radiance(*shaded),
-                mask = reference.inner_pixels();
-    const auto& known = reference.progress().confidence;
-    return {picture_error(found, expected, mask), mean_value(hdr_flip(expected, found), mask),
-            known ? known->p95 : 0.0};
 }
 
 Image ComparisonScenes::display(const Scene& scene, glm::ivec2 size_px) {

@@ -5,7 +5,6 @@
 #include "app/shoot.h"
 #include "app/studio.h"
 #include "renderer/core/comparison.h"
-#include "renderer/core/metrics.h"
 
 #include <map>
 #include <string>
@@ -16,13 +15,6 @@ namespace patina {
 /// …): only the size and --set go with one.
 void require_own_settings(const SceneOptions& options, const std::string& file);
 
-/// How far a view's shading is from the reference, on the object, 128 pixels square.
-struct ReferenceError {
-    PictureError error;
-    double flip = 0.0;   ///< mean
-    double known = 0.0;  ///< relative 95 % half-width that 95 of 100 pixels of the reference keep
-};
-
 /// What a comparison's views need, loaded once.
 class ComparisonScenes {
 public:
@@ -32,8 +24,8 @@ public:
     Scene scene(ViewPlace place);
     const LoadedPhoto& photo(const std::string& file);
     Image radiance(const Scene& scene, glm::ivec2 size_px);
-    ReferenceError error(const Scene& scene, int samples);
     Image display(const Scene& scene, glm::ivec2 size_px);
+    Renderer& renderer() { return renderer_; }
 
 private:
     RenderTarget& target(glm::ivec2 size_px);

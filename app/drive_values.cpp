@@ -75,6 +75,21 @@ std::string photo_value(const DriveView& view, float Photo::*member) {
     return text_of(photo.*member);
 }
 
+/// Of the camera that looks into each view.
+std::string sheet_yaws(const DriveView& view) {
+    std::string text;
+    if (!view.editor.document.sheet) return text;
+    for (std::size_t i = 0; i < places_of(*view.editor.document.sheet).size(); ++i)
+        text += (i > 0 ? "," : "") + text_of(double(camera_of_sheet(view.editor, i).yaw_deg));
+    return text;
+}
+
+/// The first hint of the selected view; empty: none, or not known yet.
+std::string photo_hint(const DriveView& view) {
+    const auto& hints = view.editor.photos.views[std::size_t(view.editor.ui.sheet_selected)].hints;
+    return hints && !hints->empty() ? hints->front() : "";
+}
+
 /// Linear radiance, then display values; "none".
 std::string probe_text(const std::optional<ui::PixelValue>& value) {
     if (!value) return "none";
@@ -143,6 +158,10 @@ constexpr std::array kValues{
     NamedValue{"probe_first", [](const DriveView& v) { return probe_text(v.editor.probe.first); }},
     NamedValue{"probe_second", [](const DriveView& v) { return probe_text(v.editor.probe.second); }},
     NamedValue{"sheet_file", [](const DriveView& v) { return path_to_utf8(v.editor.sheet.file); }},
+    NamedValue{"sheet_unsaved",
+               [](const DriveView& v) { return std::string(sheet_unsaved(v.editor) ? "yes" : "no"); }},
+    NamedValue{"sheet_yaws", sheet_yaws},
+    NamedValue{"photo_hint", photo_hint},
     NamedValue{"sheet_rotations",
                [](const DriveView& v) {
                    std::string text;
@@ -154,6 +173,7 @@ constexpr std::array kValues{
     NamedValue{"frames", [](const DriveView& v) { return std::to_string(v.frames); }},
     NamedValue{"views", [](const DriveView& v) { return std::to_string(v.views); }},
     NamedValue{"turns", [](const DriveView& v) { return std::to_string(v.turns); }},
+    NamedValue{"cpu_ms", [](const DriveView& v) { return text_of(v.cpu_ms); }},
     NamedValue{"longest_turn_ms", [](const DriveView& v) { return text_of(v.turn_ms); }},
     NamedValue{
         "lights_baked",

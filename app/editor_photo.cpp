@@ -17,6 +17,7 @@ namespace patina {
 namespace {
 
 constexpr int kRawPx = 1024;
+constexpr glm::ivec2 kTrialPx{160};
 
 struct ReadPhoto {
     LoadedPhoto photo;
@@ -78,6 +79,8 @@ void compare_photo(Editor& editor, const DrawnPhotoView& drawn, const Photo& pho
     shown.photo = photo;
     shown.size_px = {render->width, render->height};
     shown.drawn = drawn.drawn;
+    shown.search.reset();
+    shown.hints.reset();
     shown.job = editor.jobs.start(
         "Comparing with " + short_name(photo.file),
         [&editor, view = drawn.view, photo, loaded, render](JobContext&) -> Jobs::Done {
@@ -131,6 +134,48 @@ void update_photo(Editor& editor, const DrawnPhotoView& drawn) {
     if (stale && !held) compare_photo(editor, drawn, *photo, found->second.loaded);
 }
 
+bool hints_wanted(const Editor& editor) {
+    const auto view = std::size_t(std::max(editor.ui.sheet_selected, 0));
+    const Photo* photo = photo_of(editor, view);
+    if (!photo || view >= editor.photos.views.size()) return false;
+    const PhotoShown& shown = editor.photos.views[view];
+    const auto file = editor.photos.files.find(photo->file);
+    return file != editor.photos.files.end() && file->second.loaded && !shown.hints &&
+           shown.photo == *photo && shown.residual.pixels > 0 && !editor.jobs.is_running(shown.job) &&
+           editor.document.view.debug == DebugView::Final && editor.reconciler.drawable(view) &&
+           !editor.ui.viewport_drag && !editor.ui.photo_held;
+}
+
+void step_hints(Editor& editor) {
+    if (!hints_wanted(editor)) return;
+    const auto view = std::size_t(std::max(editor.ui.sheet_selected, 0));
+    PhotoShown& shown = editor.photos.views[view];
+    EditorPhotos& photos = editor.photos;
+    if (!shown.search) {
+        const PhotoFile& file = photos.files.at(shown.photo->file);
+        shown.search.emplace(
+            photo_in_view(*shown.photo, file.loaded->linear, kTrialPx), shown.photo->region,
+            editor.reconciler.scene_of(view, camera_of_sheet(editor, view), view_of_sheet(editor, view)));
+    }
+    if (!photos.trial) photos.trial = editor.renderer.make_target(kTrialPx);
+    const bool more = shown.search->step([&](const Scene& scene) {
+        editor.renderer.draw(scene, *photos.trial, Reuse::IfRepeated);
+        return editor.renderer.read_radiance(*photos.trial);
+    });
+    if (more) return;
+    shown.hints = shown.search->sentences();
+    shown.search.reset();
+    ++editor.changes;
+}
+
+void set_photo(Editor& editor, int view, const std::string& file) {
+    if (!editor.document.sheet) return;
+    const std::vector<ViewPlace> places = places_of(*editor.document.sheet);
+    if (view < 0 || std::size_t(view) >= places.size()) return;
+    lighting_at(*editor.document.sheet, places[std::size_t(view)]).photo = Photo{.file = file};
+    editor.photos.files.erase(file);  // read it anew: it may have changed
+}
+
 void fill_photo(const Editor& editor, std::size_t view, ui::SheetCell& cell) {
     const Photo* photo = photo_of(editor, view);
     if (!photo || view >= editor.photos.views.size()) return;
@@ -148,6 +193,7 @@ void fill_photo(const Editor& editor, std::size_t view, ui::SheetCell& cell) {
     if (shown.fitted) cell.photo = Renderer::texture_of(*shown.fitted);
     if (shown.heat) cell.heat = Renderer::texture_of(*shown.heat);
     if (shown.fitted && shown.residual.pixels > 0) cell.residual = short_text(shown.residual);
+    cell.hints = shown.hints;
 }
 
 glm::vec3 card_color(Editor& editor, std::size_t view, float reflectance) {

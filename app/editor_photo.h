@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/jobs.h"
+#include "app/photo_hints.h"
 #include "app/shoot.h"
 #include "renderer/renderer.h"
 #include "ui/panel_context.h"
@@ -33,6 +34,8 @@ struct PhotoShown {
     MapHandle fitted, heat;
     std::shared_ptr<const Image> linear;  ///< 4 channels, in the view's frame
     Residual residual;
+    std::optional<HintSearch> search;               ///< under way
+    std::optional<std::vector<std::string>> hints;  ///< once it has ended
     Jobs::Id job = 0;
 };
 
@@ -41,6 +44,7 @@ struct EditorPhotos {
     std::array<PhotoShown, 16> views;
     MeshHandle card;
     EnvironmentHandle white;  ///< radiance 1 from everywhere
+    TargetHandle trial;       ///< where hints are tried
 };
 
 /// A view of the sheet as it is drawn now.
@@ -51,8 +55,15 @@ struct DrawnPhotoView {
 };
 /// Starts what is missing for that view.
 void update_photo(Editor& editor, const DrawnPhotoView& drawn);
+/// One trial of what would bring the selected view closer to its photo, for when nothing else is going on.
+void step_hints(Editor& editor);
+/// step_hints() has something to do.
+bool hints_wanted(const Editor& editor);
 /// What the panels see of it.
 void fill_photo(const Editor& editor, std::size_t view, ui::SheetCell& cell);
+
+/// It is that view's from now on: of all views that share its lighting.
+void set_photo(Editor& editor, int view, const std::string& file);
 
 /// The colour that a card of that reflectance has in the view when it faces the camera upright.
 glm::vec3 card_color(Editor& editor, std::size_t view, float reflectance);

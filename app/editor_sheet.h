@@ -2,7 +2,7 @@
 // comparison itself is part of the document, so that it can be undone.
 #pragma once
 
-#include "app/comparison_report.h"
+#include "app/editor_report.h"
 #include "app/reconcile.h"
 #include "renderer/core/comparison.h"
 
@@ -23,26 +23,12 @@ struct SheetPreset {
     std::string error;  ///< one sentence; the material is then the default one
 };
 
-/// A report under way: a view a step, so that the window goes on.
-struct ReportWork {
-    ReportWork(Editor& editor, Comparison shown, std::filesystem::path to);
-    ~ReportWork() = default;
-    ReportWork(const ReportWork&) = delete;
-    ReportWork& operator=(const ReportWork&) = delete;
-
-    SceneLoader loader;
-    Comparison comparison;
-    ComparisonScenes scenes;
-    ComparisonReport report;
-    std::filesystem::path output;
-};
-
 struct EditorSheet {
     std::filesystem::path file;          ///< empty: never saved
     std::optional<Comparison> saved;     ///< what the file holds
     std::optional<Comparison> put_away;  ///< while the one view is shown
     std::map<std::string, SheetPreset> presets;
-    std::unique_ptr<ReportWork> report;
+    std::shared_ptr<ReportWork> report;  ///< being drawn
 };
 
 /// What the panels edit in place: the document's own values, or those of the sheet's selected view.
@@ -73,9 +59,5 @@ void set_mesh(Editor& editor, const std::string& mesh);
 bool sheet_unsaved(const Editor& editor);
 /// Without waiting: the sheet is about to be lost with the window. It is offered when a sheet is shown again.
 void keep_sheet(const Editor& editor);
-
-void export_report(Editor& editor, const std::string& file);
-/// One view of the report under way; does nothing without one.
-void step_report(Editor& editor);
 
 }  // namespace patina

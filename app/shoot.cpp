@@ -21,48 +21,6 @@ std::string formatted(const char* format, Values... values) {
     return text.data();
 }
 
-/// The material with one parameter moved; nullopt where it cannot move that far.
-using Move = std::function<std::optional<Material>(const Material&, float offset)>;
-
-std::optional<Material> rougher(const Material& material, float offset) {
-    Material moved = material;
-    moved.roughness.value += offset;
-    if (moved.roughness.value < 0.0f || moved.roughness.value > 1.0f) return std::nullopt;
-    return moved;
-}
-/// offset: in stops.
-std::optional<Material> lighter(const Material& material, float offset) {
-    Material moved = material;
-    moved.albedo.value *= std::exp2(offset);
-    for (int c = 0; c < 3; ++c)
-        if (moved.albedo.value[c] > 1.0f) return std::nullopt;
-    return moved;
-}
-
-/// What a photo is compared with.
-struct Compared {
-    const Image& photo;
-    const std::optional<Region>& region;
-    const Scene& scene;
-    const ShootRadiance& radiance;
-};
-
-std::optional<Estimate> tried(const Compared& compared, const Move& move, std::span<const float> offsets) {
-    const auto& [photo, region, first, radiance] = compared;
-    const Material material = first.material;
-    Scene scene = first;
-    std::vector<Trial> trials;
-    for (const float offset : offsets) {
-        const std::optional<Material> moved = move(material, offset);
-        if (!moved) continue;
-        scene.material = *moved;
-        const Residual residual = residual_of(photo, radiance(scene), region);
-        if (residual.pixels == 0) return std::nullopt;
-        trials.push_back({offset, residual.delta_e});
-    }
-    return estimate_offset(trials);
-}
-
 }  // namespace
 
 /// Means of 2×2 pixels.
@@ -90,39 +48,6 @@ LoadedPhoto load_photo(const Registry& registry, const std::string& file, int ma
     return {.linear = reduced_photo(linear_photo(loaded.image), max_side),
             .exif = exif_of(load_image_metadata(path)),
             .notes = std::move(loaded.notes)};
-}
-
-std::vector<std::string> hints_for(const Image& photo, const std::optional<Region>& region,
-                                   const Scene& scene, const ShootRadiance& radiance) {
-    static constexpr std::array offsets{-0.3f, -0.2f, -0.1f, -0.05f, 0.0f, 0.05f, 0.1f, 0.2f, 0.3f};
-    static constexpr std::array stops{-1.0f, -0.5f, -0.25f, 0.0f, 0.25f, 0.5f, 1.0f};
-    struct Hint {
-        float delta_e;
-        std::string text;
-    };
-    std::vector<Hint> hints;
-    const Compared compared{photo, region, scene, radiance};
-    const auto gain = [](const Estimate& e) {
-        return formatted(" (mean ΔE %.1f → about %.1f).", double(e.now), double(e.delta_e));
-    };
-    if (const auto e = tried(compared, rougher, offsets); e && e->clear)
-        hints.push_back(
-            {e->delta_e, formatted("The highlights are %s than in the photo: try roughness about %.2f %s",
-                                   e->offset > 0.0f ? "narrower" : "wider", double(std::abs(e->offset)),
-                                   e->offset > 0.0f ? "higher" : "lower") +
-                             gain(*e)});
-    if (const auto e = tried(compared, lighter, stops); e && e->clear)
-        hints.push_back(
-            {e->delta_e,
-             formatted("The surface is %s than in the photo: try the base colour about %.0f %% %s",
-                       e->offset > 0.0f ? "darker" : "lighter",
-                       std::abs(std::exp2(double(e->offset)) - 1.0) * 100.0,
-                       e->offset > 0.0f ? "brighter" : "darker") +
-                 gain(*e)});
-    std::ranges::sort(hints, {}, &Hint::delta_e);
-    std::vector<std::string> sentences;
-    for (Hint& hint : hints) sentences.push_back(std::move(hint.text));
-    return sentences;
 }
 
 Image display_of_linear(const Image& linear) {

@@ -6,7 +6,6 @@
 #include "renderer/core/photo.h"
 #include "renderer/renderer.h"
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,9 +24,6 @@ LoadedPhoto load_photo(const Registry& registry, const std::string& file, int ma
 /// Halved until no side is longer than that: 3 channels of F32.
 Image reduced_photo(Image image, int max_side);
 
-/// Scene-linear radiance of a scene, exposure applied.
-using ShootRadiance = std::function<Image(const Scene&)>;
-
 struct PhotoShot {
     std::string title;
     CameraExif exif;
@@ -42,10 +38,6 @@ inline constexpr float kHeatWhite = 20.0f;
 
 /// The photo held against a view's linear radiance.
 PhotoShot shoot_photo(const Photo& photo, const LoadedPhoto& loaded, const Image& render);
-
-/// What moving roughness or albedo would gain, best first; empty where nothing clearly helps.
-std::vector<std::string> hints_for(const Image& photo_in_view, const std::optional<Region>& region,
-                                   const Scene& scene, const ShootRadiance& radiance);
 
 /// 8-bit sRGB of linear values clipped at 1; paper where a fourth channel is 0.
 Image display_of_linear(const Image& linear);

@@ -45,7 +45,7 @@ blocks::PointBlock make_points(const LightSampler& light, const Place& place,
                                const ReferenceOptions& options) {
     blocks::PointBlock block{};
     for (int i = 0; i < place.count; ++i) {
-        glm::vec4* const rows = &block.point_rows[3 * i];
+        glm::vec4* const rows = &block.point_rows[std::size_t(3) * i];
         const std::uint32_t index = sequence_index(place.replicate, place.first + i, longest_of(options));
         const glm::dvec3 u = scrambled_sobol(index, seed_of(options.seed, Light));
         const LightSample sample = light.sample({u.x, u.y});

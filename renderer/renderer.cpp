@@ -190,7 +190,7 @@ void Renderer::draw(const Scene& scene, RenderTarget& target, Reuse reuse) {
     target.plain = scene.view.plain_color;
     auto surfaces = state_->surfaces_for(shown, target, features_for(shown, environment), reuse);
     if (surfaces)
-        state_->shade_stored(shown, environment, target, std::move(surfaces));
+        state_->shade_stored(shown, environment, target, surfaces);
     else
         state_->draw_radiance(shown, environment, target);
     state_->draw_display(shown.view, target);

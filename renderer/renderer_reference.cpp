@@ -33,9 +33,14 @@ void Renderer::State::draw_reference(const Scene& scene, const GpuEnvironment& e
         glUniform2f(glGetUniformLocation(program.name(), "reference_slice"), float(slice.points),
                     light > 0.0 ? float(1.0 / light) : 0.0f);
         gl::draw_all(program.name(), nothing.name(), {0, 0, target.size});
+        count_draw(1);
     }
     gl::begin_reference_background();
-    if (view.background != Background::Plain) draw_background(view.background);
+    if (view.background != Background::Plain) {
+        draw_background(view.background);
+        count_draw(1);
+    }
+    work.reference_points += std::uint64_t(slice.points);
     gl::end_reference_slice();
 }
 

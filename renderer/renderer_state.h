@@ -109,7 +109,7 @@ struct Renderer::State {
     std::shared_ptr<const GpuSurfaces> rasterised(const Scene& scene, const RenderTarget& target,
                                                   Features maps);
     void shade_stored(const Scene& scene, const GpuEnvironment& environment, RenderTarget& target,
-                      std::shared_ptr<const GpuSurfaces> surfaces);
+                      const std::shared_ptr<const GpuSurfaces>& surfaces);
     void draw_resolved(const RenderTarget& target);
 };
 

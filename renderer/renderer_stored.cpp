@@ -137,7 +137,7 @@ std::shared_ptr<const GpuSurfaces> Renderer::State::rasterised(const Scene& scen
 }
 
 void Renderer::State::shade_stored(const Scene& scene, const GpuEnvironment& environment,
-                                   RenderTarget& target, std::shared_ptr<const GpuSurfaces> from) {
+                                   RenderTarget& target, const std::shared_ptr<const GpuSurfaces>& from) {
     set_switches();
     gl::begin_shading(target.stored, from, target.full_float);
     const Features features = prepare(scene, environment, target);

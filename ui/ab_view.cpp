@@ -6,6 +6,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -91,15 +92,18 @@ void draw_ab_choice(PanelContext& context) {
         if (choices[i] == ab.against) index = int(i);
     }
     std::vector<Option> options;
+    options.reserve(titles.size());
     for (const std::string& title : titles) options.push_back({title, "What the view is held against."});
     if (combo(context, "sheet.against", options, index,
-              {.width = px(190), .tooltip = "Hold the view against another one, or against its photo."}))
-        ab.against = choices[std::size_t(index)];
+              {.width = std::min(px(190), 0.4f * ImGui::GetContentRegionAvail().x),
+               .tooltip = "Hold the view against another one, or against its photo."}))
+        ab.against = choices[std::size_t(index)], context.ui.photo_tool = PhotoTool::None;
     if (ab.against == kAgainstNothing) return;
     ImGui::SameLine();
     int how = index_of(kHows, ab.how);
-    if (segmented(context, "sheet.how", options_of(kHows), how, px(300)))
-        ab.how = kHows[std::size_t(how)].value;
+    if (segmented(context, "sheet.how", options_of(kHows), how,
+                  std::min(px(300), ImGui::GetContentRegionAvail().x)))
+        ab.how = kHows[std::size_t(how)].value, context.ui.photo_tool = PhotoTool::None;
 }
 
 void probe_view(PanelContext& context, int view, const Rect& rect) {

@@ -143,6 +143,8 @@ struct ImportSheet {
     bool rename_material = true;     ///< give the material the set's name
     std::string mesh;                ///< a mesh that lay with the maps; empty: none, or several
     bool use_mesh = true;            ///< show the material on it
+    std::string environment;         ///< an environment that lay with them; empty: none, or several
+    bool use_environment = true;     ///< light the material by it
 };
 
 // ---- the file browser ----
@@ -301,6 +303,7 @@ struct UiState {
     int export_width = 1920, export_height = 1080;
     bool focus_search = false;        ///< the library's search field takes the keyboard next frame
     std::optional<MapSlot> hit_slot;  ///< slot under the last drop, flashed for a moment
+    std::optional<int> hit_view;      ///< view of the sheet under the last drop
     double hit_time = 0.0;
     BarDrag bar_drag;
     glm::vec3 emission_color{1.0f};  ///< of a black emission, so that its strength can be raised again
@@ -310,11 +313,12 @@ struct UiState {
     int sheet_enlarged = -1;      ///< the view that fills the sheet; < 0: all are seen
     bool sheet_turn_all = false;  ///< turning the light turns that of every view
     PhotoTool photo_tool = PhotoTool::None;
-    bool photo_heat = false;      ///< the difference instead of the photo
-    bool photo_held = false;      ///< a point or rectangle is being dragged in this frame
-    float photo_wipe = 0.0f;      ///< where the photo begins, from the view's left, 0…1
-    glm::vec2 region_from{0.0f};  ///< where the rectangle under the mouse began
-    bool viewport_used = false;   ///< the artist knows how to turn the object: no hint
+    bool photo_heat = false;        ///< the difference instead of the photo
+    bool photo_held = false;        ///< a point or rectangle is being dragged in this frame
+    bool report_reference = false;  ///< the report holds every view against the reference, too
+    float photo_wipe = 0.0f;        ///< where the photo begins, from the view's left, 0…1
+    glm::vec2 region_from{0.0f};    ///< where the rectangle under the mouse began
+    bool viewport_used = false;     ///< the artist knows how to turn the object: no hint
 };
 
 struct Drop {
@@ -345,6 +349,8 @@ struct SheetCell {
     glm::ivec2 photo_px{0};   ///< size of the photo; 0: not read yet
     std::string photo_about;  ///< camera and exposure
     std::string residual;     ///< "ΔE 3.2 · light +4 %"
+    /// What would bring the render closer to the photo, one sentence each; nullopt: not known yet.
+    std::optional<std::vector<std::string>> hints;
 };
 /// A view of the sheet that is seen, and the framebuffer pixels its picture should have.
 struct SheetSize {

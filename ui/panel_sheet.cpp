@@ -80,6 +80,9 @@ void draw_files(PanelContext& context) {
     ImGui::SameLine();
     if (button(context, "compare.open", "Open…", "Open a sheet of views from its file.", {.width = half}))
         act(context, Action::OpenComparison);
+    checkbox(context, "compare.report_reference", "Errors against the reference",
+             "The report also says how far each view is from the sampled integral; takes seconds a view.",
+             context.ui.report_reference);
     if (button(context, "compare.report", "Export report…",
                "The sheet with its values, maps and photos as a web page or a PDF document.",
                {.emphasis = Emphasis::Primary, .width = ImGui::GetContentRegionAvail().x}))

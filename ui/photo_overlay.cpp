@@ -98,7 +98,25 @@ void take_tool(PanelContext& context, Photo& photo, PhotoTool tool) {
     UiState& ui = context.ui;
     ui.photo_tool = ui.photo_tool == tool ? PhotoTool::None : tool;
     if (ui.photo_tool == PhotoTool::Fit && !photo.fit)
-        photo.fit = first_fit(context.mesh == "quad", context.camera);
+        photo.fit =
+            first_fit(context.mesh == "quad", context.camera, cell_of(context, ui.sheet_selected).photo_px);
+}
+
+/// Takes back what the tool in use has set.
+void draw_undoing(PanelContext& context, Photo& photo, float width) {
+    UiState& ui = context.ui;
+    if (ui.photo_tool == PhotoTool::Fit && photo.fit &&
+        button(context, "compare.photo.unfit", "Remove the points",
+               "The whole photo stands in the middle of the view again.", {.width = width})) {
+        photo.fit.reset();
+        ui.photo_tool = PhotoTool::None;
+    }
+    if (ui.photo_tool == PhotoTool::Region && photo.region &&
+        button(context, "compare.photo.whole", "Remove the rectangle",
+               "All that the photo covers is compared.", {.width = width})) {
+        photo.region.reset();
+        ui.photo_tool = PhotoTool::None;
+    }
 }
 
 }  // namespace
@@ -186,8 +204,10 @@ void draw_photo_rows(PanelContext& context, int view) {
     const float full = ImGui::GetContentRegionAvail().x;
     Photo* photo = photo_of(context, view);
     if (!photo) {
-        text_wrapped("Put a photo of the real thing, taken under this light, beside the render.",
-                     color::kMuted, Face::Small);
+        text_wrapped(
+            "Put a photo of the real thing, taken under this light, beside the render: choose it here, "
+            "or drop it on the view.",
+            color::kMuted, Face::Small);
         if (button(context, "compare.photo.choose", "Choose a photo…",
                    "PNG, JPEG, TIFF or EXR; the camera's data is read.", {.width = full}))
             open_browser(context, BrowserPurpose::ChoosePhoto);
@@ -197,6 +217,8 @@ void draw_photo_rows(PanelContext& context, int view) {
     text_line(context, std::string(file_name_of(photo->file)));
     if (!cell.photo_about.empty()) text_line(context, cell.photo_about, color::kMuted);
     if (!cell.residual.empty()) text_line(context, cell.residual, color::kAccent);
+    if (cell.hints)
+        for (const std::string& hint : *cell.hints) text_wrapped(hint, color::kText, Face::Small);
     number_row(context,
                {.name = "compare.photo.opacity",
                 .label = "Opacity",
@@ -238,6 +260,7 @@ void draw_photo_rows(PanelContext& context, int view) {
     }
     for (const ToolRow& row : kTools)
         if (row.tool == context.ui.photo_tool) text_wrapped(row.hint, color::kAccent, Face::Small);
+    draw_undoing(context, *photo, full);
     checkbox(context, "compare.photo.heat", "Show the difference",
              "CIEDE2000 in colours: black is equal, white is 20 and more.", context.ui.photo_heat);
     if (button(context, "compare.photo.remove", "Remove the photo", "The file stays.", {.width = full})) {

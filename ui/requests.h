@@ -66,6 +66,7 @@ struct Reveal {  ///< show it in the system's file manager
 struct Dropped {
     std::vector<std::string> files;
     std::optional<MapSlot> slot;
+    std::optional<int> view;  ///< of the sheet, under the mouse: a single picture becomes its photo
 };
 struct ImportMaps {  ///< propose an assignment for this folder or these files
     std::vector<std::string> files;

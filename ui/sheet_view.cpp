@@ -35,8 +35,9 @@ Rect cell_rect(const Rect& rect, const Grid& grid, int index) {
     const float gap = std::round(px(kGap));
     const float width = (rect.width() - gap * float(grid.columns - 1)) / float(grid.columns);
     const float height = (rect.height() - gap * float(grid.rows - 1)) / float(grid.rows);
-    const float left = rect.x0 + float(index % grid.columns) * (width + gap);
-    const float top = rect.y0 + float(index / grid.columns) * (height + gap);
+    const int column = index % grid.columns, row = index / grid.columns;
+    const float left = rect.x0 + float(column) * (width + gap);
+    const float top = rect.y0 + float(row) * (height + gap);
     return {std::round(left), std::round(top), std::round(left + width), std::round(top + height)};
 }
 
@@ -98,6 +99,7 @@ void draw_cell(PanelContext& context, int view, const Rect& rect) {
     if (!tool && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
         ui.sheet_enlarged = ui.sheet_enlarged == view ? -1 : view;
     if (!tool) probe_view(context, view, rect);
+    if (context.drop && rect.contains(context.drop->position.x, context.drop->position.y)) ui.hit_view = view;
     const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
     const glm::ivec2 size{std::max(1, int(std::lround(rect.width() * pixels.x))),
                           std::max(1, int(std::lround(rect.height() * pixels.y)))};

@@ -165,6 +165,8 @@ void close_topmost(PanelContext& context) {
     UiState& ui = context.ui;
     if (context.browser.open)
         context.browser.open = false;
+    else if (ui.photo_tool != PhotoTool::None)
+        ui.photo_tool = PhotoTool::None;
     else if (context.sheet && ui.sheet_enlarged >= 0)
         ui.sheet_enlarged = -1;
     else

@@ -121,7 +121,7 @@ Layout layout_of(const PanelContext& context, glm::vec2 size) {
 
 void take_drop(PanelContext& context) {
     if (!context.drop) return;
-    context.requests.push_back(request::Dropped{context.drop->files, context.ui.hit_slot});
+    context.requests.push_back(request::Dropped{context.drop->files, context.ui.hit_slot, context.ui.hit_view});
     context.browser.open = false;
     context.result.wants_redraw = true;
 }
@@ -151,7 +151,10 @@ std::vector<Panel> builtin_panels() {
 void draw_workspace(PanelContext& context) {
     if (context.recorder) context.recorder->items.clear();
     context.result = {};
-    if (context.drop) context.ui.hit_slot.reset();
+    if (context.drop) {
+        context.ui.hit_slot.reset();
+        context.ui.hit_view.reset();
+    }
     close_list_on_escape(context);
     handle_shortcuts(context);
     const ImVec2 size = ImGui::GetIO().DisplaySize;

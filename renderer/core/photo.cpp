@@ -113,9 +113,8 @@ glm::dvec2 pixel_of(glm::dvec2 fraction, glm::ivec2 view_px) {
     return 0.5 * (glm::dvec2(view_px) - side) + side * fraction;
 }
 
-PhotoFit first_fit(bool flat, const Camera& camera) {
+PhotoFit first_fit(bool flat, const Camera& camera, glm::ivec2 photo_px) {
     PhotoFit fit;
-    fit.photo = {glm::vec2{0.2f, 0.2f}, {0.8f, 0.2f}, {0.8f, 0.8f}, {0.2f, 0.8f}};
     if (flat) {
         const glm::mat4 all = projection_matrix(camera, 1.0f) * view_matrix(camera);
         const std::array<glm::vec4, 4> corners{
@@ -124,16 +123,19 @@ PhotoFit first_fit(bool flat, const Camera& camera) {
             const glm::vec4 clip = all * corners[i];
             if (clip.w > 0.0f) fit.view[i] = {0.5f + 0.5f * clip.x / clip.w, 0.5f - 0.5f * clip.y / clip.w};
         }
-        return fit;
+    } else {
+        // The tangent cone of the unit sphere: its half angle has the sine 1/distance.
+        const float distance = std::max(camera.distance, 1.01f);
+        const float half =
+            0.5f * std::tan(std::asin(1.0f / distance)) / std::tan(glm::radians(camera.fov_deg) / 2.0f);
+        fit.view = {glm::vec2{0.5f - half, 0.5f - half},
+                    {0.5f + half, 0.5f - half},
+                    {0.5f + half, 0.5f + half},
+                    {0.5f - half, 0.5f + half}};
     }
-    // The tangent cone of the unit sphere: its half angle has the sine 1/distance.
-    const float distance = std::max(camera.distance, 1.01f);
-    const float half =
-        0.5f * std::tan(std::asin(1.0f / distance)) / std::tan(glm::radians(camera.fov_deg) / 2.0f);
-    fit.view = {glm::vec2{0.5f - half, 0.5f - half},
-                {0.5f + half, 0.5f - half},
-                {0.5f + half, 0.5f + half},
-                {0.5f - half, 0.5f + half}};
+    const glm::vec2 size = glm::max(glm::vec2(photo_px), glm::vec2(1.0f));
+    const glm::vec2 stretch = std::max(size.x, size.y) / size;
+    for (std::size_t i = 0; i < 4; ++i) fit.photo[i] = 0.5f + (fit.view[i] - 0.5f) * stretch;
     return fit;
 }
 
@@ -198,15 +200,14 @@ Image delta_e_picture(const Image& photo, const Image& render, const std::option
 }
 
 Image heat_picture(const Image& values, float white) {
-    static constexpr std::array<glm::vec3, 5> kStops{
+    static constexpr std::array<glm::vec3, 5> stops{
         glm::vec3{0, 0, 0}, {0.10f, 0.10f, 0.55f}, {0.80f, 0.15f, 0.25f}, {1.0f, 0.75f, 0.15f}, {1, 1, 1}};
     Image picture = make_image(values.width, values.height, 3, PixelType::U8);
     for (int y = 0; y < values.height; ++y)
         for (int x = 0; x < values.width; ++x) {
-            const float at =
-                std::clamp(texel(values, x, y, 0) / white, 0.0f, 1.0f) * float(kStops.size() - 1);
-            const auto i = std::min(std::size_t(at), kStops.size() - 2);
-            const glm::vec3 color = glm::mix(kStops[i], kStops[i + 1], at - float(i));
+            const float at = std::clamp(texel(values, x, y, 0) / white, 0.0f, 1.0f) * float(stops.size() - 1);
+            const auto i = std::min(std::size_t(at), stops.size() - 2);
+            const glm::vec3 color = glm::mix(stops[i], stops[i + 1], at - float(i));
             for (int c = 0; c < 3; ++c) set_texel(picture, x, y, c, color[c]);
         }
     return picture;

@@ -45,8 +45,9 @@ inline constexpr float kWhitePaper = 0.9f;
 glm::dvec2 pixel_of(glm::dvec2 fraction, glm::ivec2 view_px);
 
 /// A fit to begin with: the view's points are the corners of the flat quad as the camera sees it, or of the
-/// square around the unit sphere; the photo's stand somewhat inside it.
-PhotoFit first_fit(bool flat, const Camera& camera);
+/// square around the unit sphere; the photo's are what lies there without a fit, so that nothing moves before
+/// a point does.
+PhotoFit first_fit(bool flat, const Camera& camera, glm::ivec2 photo_px);
 
 /// From the pixels of a view of that size to those of the photo. nullopt where the fit's points are
 /// degenerate.

@@ -211,8 +211,9 @@ PanoramaTexels read_panorama(const GpuEnvironment& environment) {
     for (std::size_t i = 0; i < stored.size(); ++i) {
         glm::vec3 radiance(stored[i]);
         if (stored[i].a > 0.0f && !environment.panorama_lights.empty()) {
+            const std::size_t row = i / texels.width;
             const glm::vec2 uv((float(i % texels.width) + 0.5f) / float(texels.width),
-                               (float(i / texels.width) + 0.5f) / float(texels.height));
+                               (float(row) + 0.5f) / float(texels.height));
             radiance += stored[i].a * light_color(environment.panorama_lights, equirect_to_direction(uv));
         }
         texels.radiance.push_back(radiance * environment.panorama_scale);

@@ -1,5 +1,6 @@
 // Photos with a known truth: a render under gain, tint and perspective stands for the photo, and everything
 // that was done to it has to be found again.
+#include "app/photo_hints.h"
 #include "app/shoot.h"
 #include "renderer/core/color_difference.h"
 #include "renderer/core/homography.h"

@@ -100,9 +100,11 @@ wait idle
     EXPECT_FLOAT_EQ(saved.columns[1].rotation_deg, 5.0f);
     ASSERT_TRUE(saved.columns[0].photo && saved.columns[0].photo->fit);
     for (const glm::vec2 point : saved.columns[0].photo->fit->photo) {
-        EXPECT_GT(std::abs(point.x - 0.5f), 0.2f);
-        EXPECT_LT(std::abs(point.x - 0.5f), 0.3f) << "each was drawn inwards";
-        EXPECT_LT(std::abs(point.y - 0.5f), 0.3f);
+        const glm::vec2 from_middle = glm::abs(point - 0.5f);
+        const glm::vec2 before = glm::abs(saved.columns[0].photo->fit->view[0] - 0.5f);
+        EXPECT_LT(from_middle.x, before.x - 0.01f) << "each was drawn inwards";
+        EXPECT_LT(from_middle.y, before.y - 0.01f);
+        EXPECT_GT(from_middle.x, 0.3f);
     }
     const std::string report = read_text(home / "report.pdf");
     EXPECT_TRUE(report.starts_with("%PDF"));
@@ -112,6 +114,7 @@ wait idle
 wait until sheet_views=6
 wait idle
 expect sheet_rotations=0,5,0
+expect sheet_unsaved=no
 expect photo_exposure!=0
 expect photo_delta_e>0
 click compare.report
@@ -128,6 +131,67 @@ wait idle
     EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
     EXPECT_NE(page.find("Rubber"), std::string::npos);
     EXPECT_NE(page.find("Night"), std::string::npos);
+}
+
+TEST(EditorSheet, a_photo_dropped_on_a_view_is_held_against_it) {
+    const Folder home;
+    write_picture(home / "shot.png", 40, 90, 160);
+    EXPECT_DRIVEN(drive(home, "resize 1280 480\nwait idle\nkey c\nwait idle\ndrop \"" +
+                                  (home / "shot.png").string() + R"(" at sheet.view.2
+wait idle
+expect sheet_selected=2
+expect no item import.apply
+expect photo_delta_e>0
+expect photo_hint!=        # the default material is another grey than the photo's blue: darker
+double-click sheet.view.2
+wait idle
+click compare.photo.region  # choosing what to hold against it ends the tool
+click sheet.against
+click sheet.against.photo
+wait idle
+expect item sheet.split
+expect item compare.photo.region
+hover sheet.view.2 at 0.5 0.5
+wait idle
+expect probe_first!=none
+expect probe_second~40,90,160
+click sheet.how.signed
+wait idle
+expect item viewport.legend.signed
+click sheet.how.flip
+wait idle
+expect item viewport.legend.flip
+key escape
+wait idle
+expect no item sheet.back
+key ctrl+z
+wait idle
+expect photo_opacity=none
+)"));
+}
+
+TEST(EditorSheet, a_view_with_a_camera_of_its_own_stays_when_the_others_turn) {
+    const Folder home;
+    EXPECT_DRIVEN(drive(home, R"(
+resize 900 480
+wait idle
+key c
+wait idle
+click sheet.view.2
+click compare.own_camera
+wait idle
+drag sheet.view.1 40 0
+wait idle
+expect yaw!=0
+expect sheet_yaws~,0
+expect sheet_yaws!=0,0
+drag sheet.view.2 0 30
+wait idle
+expect pitch=0              # the shared camera did not follow
+click compare.own_camera
+wait idle
+expect item sheet.view.2
+)"));
 }
 
 TEST(EditorSheet, two_views_are_held_against_each_other_in_one) {

@@ -275,18 +275,23 @@ TEST(PhotoInView, views_of_any_shape_mean_the_square_in_their_middle) {
     EXPECT_LT(glm::distance(mapped(*square, {25, 75}), mapped(*wide, {125, 75})), 1e-9);
 }
 
-TEST(PhotoInView, a_first_fit_frames_what_is_drawn) {
-    const PhotoFit flat = first_fit(true, Camera{});
+TEST(PhotoInView, a_first_fit_frames_what_is_drawn_and_leaves_the_photo_where_it_is) {
+    constexpr glm::ivec2 size{400, 300}, view{256, 256};
+    const PhotoFit flat = first_fit(true, Camera{}, size);
     // The quad spans ±1 at distance 4.5 under 30°: ±1/(4.5·tan 15°) of the half picture.
     const float half = 0.5f / (4.5f * std::tan(0.2617994f));
     EXPECT_NEAR(flat.view[0].x, 0.5f - half, 1e-4f);
     EXPECT_NEAR(flat.view[2].y, 0.5f + half, 1e-4f);
-    const PhotoFit round = first_fit(false, Camera{});
+    const PhotoFit round = first_fit(false, Camera{}, size);
     EXPECT_LT(round.view[0].x, flat.view[0].x);  // the sphere's outline is nearer than its middle
     EXPECT_GT(round.view[0].x, flat.view[0].x - 0.02f);
+    const auto unfitted = view_to_photo({.file = "a.png"}, size, view);
     for (const bool is_flat : {true, false}) {
-        Photo photo{.file = "a.png", .fit = first_fit(is_flat, Camera{.yaw_deg = 20.0f})};
-        EXPECT_TRUE(view_to_photo(photo, {400, 300}, {256, 256}));
+        const Photo photo{.file = "a.png", .fit = first_fit(is_flat, Camera{.yaw_deg = 20.0f}, size)};
+        const auto fitted = view_to_photo(photo, size, view);
+        ASSERT_TRUE(fitted && unfitted);
+        for (const glm::dvec2 at : {glm::dvec2{0, 0}, {256, 0}, {40, 200}, {128, 128}})
+            EXPECT_LT(glm::distance(mapped(*fitted, at), mapped(*unfitted, at)), 0.01);
     }
 }
 
