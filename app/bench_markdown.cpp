@@ -153,7 +153,7 @@ std::string shading_by_roughness(const Json& result, const std::string& material
 }
 
 /// One row a mode, one column a band of N·V on the sphere.
-std::string shading_by_NoV(const Json& result, const std::string& material) {
+std::string shading_by_nov(const Json& result, const std::string& material) {
     const Json& bands = result.at("NoV_bands");
     std::string text = "\n" + material + " sphere, by N·V.\n\n| mode |", rule = "|---|";
     for (std::size_t i = 0; i + 1 < bands.size(); ++i) {
@@ -182,7 +182,7 @@ std::string shading_tables(const Json& result) {
     for (const char* material : {"metal", "dielectric"}) {
         for (const char* mesh : {"sphere", "shaderball"})
             text += shading_by_roughness(result, material, mesh);
-        text += shading_by_NoV(result, material);
+        text += shading_by_nov(result, material);
     }
     return text;
 }
