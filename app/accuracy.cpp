@@ -11,7 +11,6 @@ namespace patina {
 
 namespace {
 
-constexpr double kStepSeconds = 0.08;   ///< of the reference a frame: the window answers in between
 constexpr int kFirstMeasurement = 256;  ///< samples that say something
 
 /// Everything a picture depends on.
@@ -141,7 +140,7 @@ void AccuracyMeter::State::gather(const std::shared_ptr<State>& self, const Scen
         seen = now;
     }
     if (reference->progress().done) return;
-    reference->draw_for(kStepSeconds);
+    reference->draw_for(AccuracyMeter::kStepSeconds);
     reference->write(*reference_target);
     const ReferenceProgress& progress = reference->progress();
     status.samples = progress.samples;

@@ -12,6 +12,9 @@ namespace patina {
 
 class AccuracyMeter {
 public:
+    /// Of the reference a frame: the window answers in between.
+    static constexpr double kStepSeconds = 0.08;
+
     AccuracyMeter(Renderer& renderer, Jobs& jobs);
     ~AccuracyMeter();
     AccuracyMeter(const AccuracyMeter&) = delete;

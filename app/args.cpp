@@ -144,6 +144,48 @@ void add_edit(CLI::App& root, Args& args) {
         ->type_name("FILE");
 }
 
+/// A share as "0.5%" or "0.005".
+double parse_share(const std::string& text, const char* option) {
+    const bool percent = !text.empty() && text.back() == '%';
+    const std::vector<float> values = parse_numbers(percent ? text.substr(0, text.size() - 1) : text, ',');
+    const double share = values.size() == 1 ? double(values.front()) * (percent ? 0.01 : 1.0) : 0.0;
+    if (!(share >= 1e-5 && share <= 0.5))
+        throw CLI::ValidationError(std::string(option) + " takes 0.001% to 50%, not '" + text + "'");
+    return share;
+}
+
+void add_samples(CLI::App& app, SceneOptions& scene) {
+    constexpr int most = 1 << 24, most_unless_told = 1 << 16;
+    constexpr double error_unless_told = 0.01;
+    CLI::Option* samples = app.add_option_function<std::string>(
+        "--samples",
+        [&scene](const std::string& text) {
+            if (text == "auto") {
+                if (scene.error == 0.0) scene.error = error_unless_told;
+                scene.samples = most_unless_told;
+                return;
+            }
+            const bool is_whole = !text.empty() && text.size() <= 8 &&
+                                  text.find_first_not_of("0123456789") == std::string::npos;
+            const int count = is_whole ? std::stoi(text) : 0;
+            if (count < 1 || count > most)
+                throw CLI::ValidationError("--samples takes 1 to 16777216 or auto, not '" + text + "'");
+            scene.samples = count;
+        },
+        "Points a pixel of --shading reference (default 1024); auto: until 95 of 100 pixels are known to 1 "
+        "%");
+    samples->type_name("N|auto");
+    app.add_option_function<std::string>(
+           "--error",
+           [&scene, samples](const std::string& text) {
+               scene.error = parse_share(text, "--error");
+               if (samples->count() == 0) scene.samples = most_unless_told;
+           },
+           "--shading reference stops once 95 of 100 pixels are known to that share of their light, or at "
+           "--samples")
+        ->type_name("E%");
+}
+
 void add_render_and_compare(CLI::App& root, Args& args) {
     CLI::App* render = root.add_subcommand("render", "Render one preset to a picture");
     render
@@ -181,10 +223,7 @@ void add_render_and_compare(CLI::App& root, Args& args) {
             ->required()
             ->type_name("FILE");
         add_scene(*app, args.render.scene);
-        app->add_option("--samples", args.render.scene.samples,
-                        "Points a pixel of --shading reference (default 1024)")
-            ->check(CLI::Range(1, 1 << 24))
-            ->type_name("N");
+        add_samples(*app, args.render.scene);
         add_stats(*app, args.render.stats);
     }
 }

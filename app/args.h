@@ -22,7 +22,8 @@ struct SceneOptions {
     View view;
     Camera camera;
     glm::ivec2 size_px{512, 512};
-    int samples = 1024;                                          ///< points a pixel of the reference
+    int samples = 1024;  ///< points a pixel of the reference
+    double error = 0.0;  ///< > 0: it stops once 95 of 100 pixels are known to that; samples are the most then
     std::vector<std::pair<std::string, std::string>> overrides;  ///< --set key=value, in order
     bool allow_missing_maps = false;                             ///< draw the placeholder instead of failing
     bool skip = true;  ///< false: prepare what any picture could need, for comparison

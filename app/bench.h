@@ -40,10 +40,10 @@ std::vector<double> interleaved_medians_ms(const std::vector<std::function<void(
 nlohmann::ordered_json bench_frame(const BenchContext& context);
 /// Shading modes and their rivals: error against the reference, and cost of a frame relative to split sum.
 nlohmann::ordered_json bench_shading(const BenchContext& context);
+/// The reference: time to a clean picture in steps as the editor takes them, and error by samples.
+nlohmann::ordered_json bench_reference(const BenchContext& context);
 /// Cost of light: decoding, baking, reading it back from the disk cache.
 nlohmann::ordered_json bench_light(const BenchContext& context);
-/// Views side by side against one view of the same area.
-nlohmann::ordered_json bench_views(const BenchContext& context);
 /// The editor's start, cold and warm, against a bare window. Needs a display.
 nlohmann::ordered_json bench_start(const BenchContext& context);
 /// Pictures, steps of the artist and lights with skipping and without: time, memory, ledger, difference.

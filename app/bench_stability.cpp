@@ -27,9 +27,10 @@ std::vector<Property> chosen(const std::vector<std::string>& ids) {
             some.push_back(*found);
             continue;
         }
-        std::string known;
-        for (const Property& each : all) known.append(" ").append(each.id);
-        throw std::runtime_error("there is no property '" + id + "'; there are:" + known);
+        std::string sentence = "there is no property '";
+        sentence.append(id).append("'; there are:");
+        for (const Property& each : all) sentence.append(" ").append(each.id);
+        throw std::runtime_error(sentence);
     }
     return some;
 }

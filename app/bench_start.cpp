@@ -46,6 +46,7 @@ Start start_once(const StartCase& each, const fs::path& folder) {
     std::error_code ignored;
     fs::remove(result, ignored);
     if (each.cold) fs::remove_all(folder / "cache", ignored);
+    fs::create_directories(folder / "cache" / "mesa", ignored);
     const double before_s = now_s();
     if (std::system(each.command.c_str()) != 0)
         throw std::runtime_error("bench start: " + each.name + " could not be started; it needs a display");
@@ -86,6 +87,61 @@ std::vector<StartCase> start_cases(const fs::path& folder) {
             {.name = "editor with worn-paint, warm", .command = editor("worn-paint")}};
 }
 
+/// Cold starts empty the caches of the warm ones: they come first, and each warm one has an untimed start.
+void start_all(std::vector<StartCase>& cases, const fs::path& folder, int repetitions) {
+    for (const bool cold : {true, false})
+        for (int repetition = cold ? 0 : -1; repetition < repetitions; ++repetition)
+            for (StartCase& each : cases) {
+                if (each.cold != cold) continue;
+                const Start start = start_once(each, folder);
+                if (repetition >= 0) each.starts.push_back(start);
+            }
+}
+
+// --- with nothing to do ---
+
+struct IdleCase {
+    std::string name;
+    std::string arguments;
+    std::string before;  ///< lines of a drive script
+};
+constexpr double kIdleSeconds = 30.0;
+
+std::vector<IdleCase> idle_cases() {
+    const std::string reference =
+        "click toolbar.shading\nclick toolbar.shading.reference\nwait until views>3\n";
+    return {{"a picture", " --window 1440x900", ""},
+            {"a converged reference", " - --env furnace --window 420x300", reference}};
+}
+
+/// What the driven editor printed: "frames=0" and so on, a line each.
+double printed(const std::string& text, const std::string& key) {
+    const std::size_t at = text.find(key + "=");
+    if (at == std::string::npos) throw std::runtime_error("bench start: the idle editor told no " + key);
+    return std::strtod(text.c_str() + at + key.size() + 1, nullptr);
+}
+
+Json idle_once(const IdleCase& each, const fs::path& folder) {
+    const fs::path script = folder / "idle.drive", said = folder / "said.txt";
+    const std::string text = "wait idle\n" + each.before + "wait idle\nmark\nwait " +
+                             std::to_string(int(kIdleSeconds)) +
+                             " seconds\nprint frames\nprint views\nprint cpu_ms\n";
+    write_file(script, std::as_bytes(std::span(text)));
+    const std::string command = quoted(program_folder() / "patina") + " edit" + each.arguments + " --drive " +
+                                quoted(script) + " > " + quoted(said);
+    if (std::system(command.c_str()) != 0)
+        throw std::runtime_error("bench start: the editor could not be left idle; it needs a display");
+    const std::vector<std::byte> bytes = read_file(said);
+    const std::string words(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const double percent = 0.1 * printed(words, "cpu_ms") / kIdleSeconds;
+    std::printf("%-32s %10.0f %10.0f %9.2f%%\n", each.name.c_str(), printed(words, "frames"),
+                printed(words, "views"), percent);
+    return {{"name", each.name},
+            {"frames", printed(words, "frames")},
+            {"views", printed(words, "views")},
+            {"core_percent", percent}};
+}
+
 }  // namespace
 
 Json bench_start(const BenchContext& context) {
@@ -94,8 +150,7 @@ Json bench_start(const BenchContext& context) {
     set_variable("PATINA_STATE_DIR", path_to_utf8(folder.path() / "state"));
     set_variable("MESA_SHADER_CACHE_DIR", path_to_utf8(folder.path() / "cache" / "mesa"));
     std::vector<StartCase> cases = start_cases(folder.path());
-    for (int repetition = 0; repetition < context.repetitions(); ++repetition)
-        for (StartCase& each : cases) each.starts.push_back(start_once(each, folder.path()));
+    start_all(cases, folder.path(), context.repetitions());
     Json json{{"window_px", {kWidth, kHeight}}, {"cases", Json::array()}};
     std::printf("%-32s %10s %10s %10s\n", "first frame with a picture", "wall ms", "CPU ms", "peak MiB");
     for (const StartCase& each : cases) {
@@ -106,6 +161,10 @@ Json bench_start(const BenchContext& context) {
         json["cases"].push_back(
             {{"name", each.name}, {"wall_ms", wall}, {"cpu_ms", cpu}, {"peak_memory_mib", memory}});
     }
+    json["idle_s"] = kIdleSeconds;
+    json["idle"] = Json::array();
+    std::printf("\n%-32s %10s %10s %10s\n", "idle for 30 s", "frames", "pictures", "of a core");
+    for (const IdleCase& each : idle_cases()) json["idle"].push_back(idle_once(each, folder.path()));
     return json;
 }
 

@@ -24,10 +24,10 @@ constexpr std::array kBenchmarks{
     Benchmark{"light", "decoding, baking and reading back environments", bench_light},
     Benchmark{"ibl", "prefiltering: run time against error, method by method", bench_ibl},
     Benchmark{"shading", "shading modes: error against the integral, and cost", bench_shading},
+    Benchmark{"reference", "the reference: time to a clean picture, and error by samples", bench_reference},
     Benchmark{"frame", "one frame by shading mode, features and size", bench_frame},
     Benchmark{"stability", "properties on random cases, and errors against roughness and NoV",
               bench_stability},
-    Benchmark{"views", "views side by side: a turn of the light in one and in nine", bench_views},
     Benchmark{"skip", "what is saved by computing only what a picture needs", bench_skip},
     Benchmark{"start", "the editor's start against a bare window", bench_start},
 };
@@ -38,9 +38,10 @@ std::vector<const Benchmark*> chosen(const std::vector<std::string>& names) {
         if (names.empty() || std::ranges::find(names, each.name) != names.end()) benchmarks.push_back(&each);
     for (const std::string& name : names) {
         if (std::ranges::find(kBenchmarks, name, &Benchmark::name) != kBenchmarks.end()) continue;
-        std::string known;
-        for (const Benchmark& each : kBenchmarks) known.append(" ").append(each.name);
-        throw std::runtime_error("there is no benchmark '" + name + "'; there are:" + known);
+        std::string sentence = "there is no benchmark '";
+        sentence.append(name).append("'; there are:");
+        for (const Benchmark& each : kBenchmarks) sentence.append(" ").append(each.name);
+        throw std::runtime_error(sentence);
     }
     return benchmarks;
 }

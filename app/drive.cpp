@@ -19,6 +19,7 @@ namespace {
 constexpr std::size_t kMaxScriptBytes = 1 << 20;
 constexpr double kItemPatienceSeconds = 20.0;
 constexpr double kPatienceSeconds = 180.0;
+constexpr double kTurnSeconds = 0.02;
 constexpr int kScrollTries = 120;
 constexpr int kDragSteps = 8;
 
@@ -31,7 +32,8 @@ constexpr std::array kVerbs{
     Verb{"drag", 3, 3},  Verb{"move", 2, 2},         Verb{"wheel", 1, 1},       Verb{"type", 1, 1},
     Verb{"key", 1, 1},   Verb{"drop", 1, 1000},      Verb{"resize", 2, 2},      Verb{"close", 0, 0},
     Verb{"wait", 1, 4},  Verb{"mark", 0, 0},         Verb{"expect", 1, 3},      Verb{"screenshot", 1, 1},
-    Verb{"quit", 0, 0},  Verb{"items", 0, 1},        Verb{"print", 1, 1},
+    Verb{"quit", 0, 0},  Verb{"items", 0, 1},        Verb{"print", 1, 1},       Verb{"hide", 0, 0},
+    Verb{"show", 0, 0},
 };
 
 /// Blanks separate; double quotes keep them; a '#' outside quotes ends the line. nullopt: a quote is left
@@ -233,10 +235,14 @@ void Drive::begin_wait(const DriveCommand& command, const DriveView& view, doubl
             });
     } else if (words.size() == 3 && words[2].rfind("second", 0) == 0) {
         actions_.emplace_back([this, until = now_s + double(number(words[1]))](Window&, const DriveView&) {
+            sleeps_until_s_ = until;
             return now_s_ >= until;
         });
+    } else if (words.size() == 3 && words[2].rfind("turn", 0) == 0) {
+        actions_.emplace_back([until = view.turns + std::uint64_t(number(words[1]))](
+                                  Window&, const DriveView& seen) { return seen.turns >= until; });
     } else {
-        fail("wait for what? 'idle', 'N frames', 'N seconds' or 'until …'");
+        fail("wait for what? 'idle', 'N frames', 'N seconds', 'N turns' or 'until …'");
     }
 }
 
@@ -247,6 +253,7 @@ DriveView Drive::since_mark(const DriveView& view) const {
             .frames = view.frames - marked_frames_,
             .views = view.views - marked_views_,
             .turns = view.turns - marked_turns_,
+            .cpu_ms = view.cpu_ms - marked_cpu_ms_,
             .turn_ms = longest_turn_ms_};
 }
 
@@ -268,11 +275,13 @@ void Drive::begin(const DriveCommand& command, Window& window, const DriveView& 
         act([size = glm::ivec2(number(words[1]), number(words[2]))](Window& to) { to.resize(size); });
         return act([](Window&) {});
     }
+    if (verb == "hide" || verb == "show") return window.set_shown(verb == "show");
     if (verb == "close") return act([](Window& to) { to.ask_to_close(); });
     if (verb == "mark") {
         marked_frames_ = view.frames;
         marked_views_ = view.views;
         marked_turns_ = view.turns;
+        marked_cpu_ms_ = view.cpu_ms;
         longest_turn_ms_ = 0.0;
         return;
     }
@@ -306,6 +315,7 @@ void Drive::begin(const DriveCommand& command, Window& window, const DriveView& 
 
 void Drive::step(Window& window, const DriveView& view) {
     now_s_ = window.time_s();
+    sleeps_until_s_.reset();
     longest_turn_ms_ = std::max(longest_turn_ms_, view.turn_ms);
     waiting_ = false;
     while (!finished_) {
@@ -331,6 +341,10 @@ void Drive::step(Window& window, const DriveView& view) {
             return;
         }
     }
+}
+
+double Drive::patient_for_s(double now_s) const {
+    return sleeps_until_s_ ? std::max(*sleeps_until_s_ - now_s, 0.0) : kTurnSeconds;
 }
 
 std::optional<fs::path> Drive::take_screenshot() { return std::exchange(screenshot_, std::nullopt); }

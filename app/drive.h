@@ -15,11 +15,12 @@
 //   key ctrl+z
 //   drop PATH… [at LABEL]        files from outside
 //   resize W H                   the window
+//   hide | show                  the window; a hidden one shows no frames, so wait for something else
 //   close                        the window's own button
 //   wait idle                    until no job runs and nothing moves
-//   wait N frames | N seconds
+//   wait N frames | N seconds    or N turns of the event loop, which take 0.02 s while nothing happens
 //   wait until EXPECTATION       at most a few minutes
-//   mark                         frames, views, turns and longest_turn_ms count from here
+//   mark                         frames, views, turns, cpu_ms and longest_turn_ms count from here
 //   expect EXPECTATION           dirty | clean | item LABEL | no item LABEL | KEY=VALUE (also != < <= > >= and
 //                                ~ for contains, !~ for does not contain)
 //   print KEY                    its value, on standard output
@@ -63,6 +64,7 @@ struct DriveView {
     std::uint64_t frames = 0;  ///< of the window
     std::uint64_t views = 0;   ///< of the 3D view
     std::uint64_t turns = 0;   ///< of the event loop
+    double cpu_ms = 0.0;       ///< of all threads of the process
     double turn_ms = 0.0;      ///< main-thread work: of the last turn for step(), of the longest for values
 };
 /// A value by name as text; nullopt if there is none of that name.
@@ -79,6 +81,8 @@ public:
     bool finished() const { return finished_; }
     /// Wants step() again at once, without waiting for an event.
     bool busy() const { return !finished_ && !waiting_; }
+    /// While not busy: how long it may be before step() is called again, unless something happens.
+    double patient_for_s(double now_s) const;
     /// Where to write the next frame, if a screenshot was asked for.
     std::optional<std::filesystem::path> take_screenshot();
 
@@ -105,9 +109,11 @@ private:
     double now_s_ = 0.0;
     glm::vec2 mouse_{0.0f};
     std::uint64_t marked_frames_ = 0, marked_views_ = 0, marked_turns_ = 0;
+    double marked_cpu_ms_ = 0.0;
     double longest_turn_ms_ = 0.0;  ///< since the mark
     std::optional<std::filesystem::path> screenshot_;
     bool waiting_ = false;
+    std::optional<double> sleeps_until_s_;  ///< waits for the time alone
     bool finished_ = false;
 };
 

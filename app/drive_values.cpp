@@ -173,6 +173,7 @@ constexpr std::array kValues{
     NamedValue{"frames", [](const DriveView& v) { return std::to_string(v.frames); }},
     NamedValue{"views", [](const DriveView& v) { return std::to_string(v.views); }},
     NamedValue{"turns", [](const DriveView& v) { return std::to_string(v.turns); }},
+    NamedValue{"cpu_ms", [](const DriveView& v) { return text_of(v.cpu_ms); }},
     NamedValue{"longest_turn_ms", [](const DriveView& v) { return text_of(v.turn_ms); }},
     NamedValue{
         "lights_baked",

@@ -116,14 +116,14 @@ void Loop::think() {
     more_uploads_ = update_reconciler();
     step_report(editor_);
     if (wants_hints()) step_hints(editor_);
-    editor_.thumbnails.step(calm());
+    if (is_seen_) editor_.thumbnails.step(calm());
     watch_files(editor_, now_s);
     keep_work(editor_, now_s);
     settle(editor_, true);
 }
 
 bool Loop::needs_frame() const {
-    if (window_.minimized()) return false;
+    if (!is_seen_) return false;
     return frames_wanted_ > 0 || animating_ || window_.time_s() >= redraw_at_s_ ||
            (!editor_.document.sheet && meter_.busy()) || editor_.changes != changes_shown_ ||
            editor_.thumbnails.version() != thumbnails_shown_ || jobs_.running() != jobs_shown_ ||
@@ -214,6 +214,7 @@ void Loop::frame() {
     if (drew_s_) pace_.took(shown_, window_.time_s() - *std::exchange(drew_s_, std::nullopt));
     ++renderer_.work().frames_shown;
     if (shown && !first_lit_frame_) first_lit_frame_ = mark_process();
+    is_shown_ = is_shown_ || shown == target_;
     if (screenshot) save_image(*screenshot, picture);
 }
 
@@ -247,6 +248,7 @@ void Loop::drive() {
                            .frames = window_.frames(),
                            .views = views_,
                            .turns = turns_,
+                           .cpu_ms = 1e3 * process_cpu_s(),
                            .turn_ms = turn_ms_});
     if (drive_->finished()) editor_.quit = true;
 }
@@ -255,11 +257,12 @@ double Loop::sleep_s() const {
     if (more_uploads_ || editor_.sheet.report || wants_hints() || (drive_ && drive_->busy())) return 0.0;
     if (needs_frame()) return 0.0;
     double wait = next_errand_s(editor_, window_.time_s());
+    if (drive_) wait = std::min(wait, drive_->patient_for_s(window_.time_s()));
+    if (!is_seen_) return std::max(wait, 0.001);
     if (window_.wants_text()) wait = std::min(wait, kCaretSeconds);
     if (wants_refining()) wait = std::min(wait, kStillSeconds);
     if (editor_.thumbnails.busy()) wait = std::min(wait, kAnimationSeconds);
-    if (!window_.minimized()) wait = std::min(wait, redraw_at_s_ - window_.time_s());
-    if (drive_) wait = std::min(wait, 0.02);
+    wait = std::min(wait, redraw_at_s_ - window_.time_s());
     return std::max(wait, 0.001);
 }
 
@@ -289,6 +292,7 @@ void Loop::live() {
         window_.require_context();
         drive();
         take_events();
+        is_seen_ = !window_.out_of_sight();
         think();
         if (needs_frame()) frame();
         ++turns_;

@@ -68,13 +68,13 @@ struct Sorted {
     std::vector<std::string> presets, meshes, environments, maps, other;
 };
 
-void sort_file(const Registry& registry, const std::string& name, bool in_folder, Sorted& sorted) {
+void sort_file(const Registry& registry, const std::string& name, Sorted& sorted) {
     const fs::path file = utf8_to_path(name);
     if (extension_of(file) == "json")
         sorted.presets.push_back(name);
     else if (reads(registry.mesh_importers, file))
         sorted.meshes.push_back(name);
-    else if (!in_folder && is_environment(file))
+    else if (is_environment(file))
         sorted.environments.push_back(name);
     else if (reads(registry.image_importers, file))
         sorted.maps.push_back(name);
@@ -98,8 +98,12 @@ void offer_sheet(Editor& editor, const Sorted& sorted) {
     ui::ImportSheet sheet{.title = proposal.name};
     for (const patina::ImportRow& row : proposal.rows) sheet.rows.push_back(to_ui(row));
     if (sorted.meshes.size() == 1) sheet.mesh = sorted.meshes[0];
+    if (sorted.environments.size() == 1) sheet.environment = sorted.environments[0];
     for (const std::string& mesh : sheet.mesh.empty() ? sorted.meshes : std::vector<std::string>{})
         sheet.notes.push_back(short_name(mesh) + " is a mesh; drop it by itself to put the material on it.");
+    for (const std::string& light :
+         sheet.environment.empty() ? sorted.environments : std::vector<std::string>{})
+        sheet.notes.push_back(short_name(light) + " is an environment; drop it by itself to light by it.");
     for (const std::string& preset : sorted.presets)
         sheet.notes.push_back(short_name(preset) + " is not a picture; drop it by itself to open it.");
     if (!sorted.other.empty())
@@ -118,9 +122,12 @@ void propose_maps(Editor& editor, const std::vector<std::string>& files) {
         std::error_code ignored;
         const bool folder = fs::is_directory(utf8_to_path(name), ignored);
         const std::vector<std::string> inside = folder ? files_in(utf8_to_path(name)) : std::vector{name};
-        for (const std::string& file : inside) sort_file(editor.registry, file, true, sorted);
+        for (const std::string& file : inside) sort_file(editor.registry, file, sorted);
     }
-    if (sorted.maps.empty())
+    if (sorted.maps.empty() && sorted.meshes.size() + sorted.environments.size() == 1) {
+        for (const std::string& mesh : sorted.meshes) use_mesh(editor, mesh);
+        for (const std::string& light : sorted.environments) use_environment(editor, light);
+    } else if (sorted.maps.empty())
         log_line(editor, ui::Severity::Warning,
                  (files.size() == 1 ? short_name(files[0]) : std::string("What was dropped")) +
                      " holds no pictures that could be maps.");
@@ -137,10 +144,10 @@ void take_dropped(Editor& editor, const ui::request::Dropped& dropped) {
             folders = true;
             continue;
         }
-        sort_file(editor.registry, name, false, sorted);
+        sort_file(editor.registry, name, sorted);
     }
-    if (dropped.slot && sorted.maps.size() == 1 && dropped.files.size() == 1)
-        return assign_map(editor, *dropped.slot, sorted.maps[0]);
+    if (dropped.slot && dropped.files.size() == 1 && sorted.maps.size() + sorted.environments.size() == 1)
+        return assign_map(editor, *dropped.slot, dropped.files[0]);
     if (dropped.view && editor.document.sheet && sorted.maps.size() == 1 && dropped.files.size() == 1) {
         editor.ui.sheet_selected = *dropped.view;
         editor.ui.right_tab = "sheet";
@@ -180,6 +187,7 @@ void apply_import_sheet(Editor& editor) {
         editor.document.material.source.clear();  // it spoke of the values that were here before
     }
     if (sheet.use_mesh && !sheet.mesh.empty()) use_mesh(editor, sheet.mesh);
+    if (sheet.use_environment && !sheet.environment.empty()) use_environment(editor, sheet.environment);
     log_line(editor, ui::Severity::Info,
              "Imported " + std::to_string(used) + (used == 1 ? " map." : " maps."));
 }

@@ -81,67 +81,82 @@ void save_as(Editor& editor, const std::string& file) {
     save_file(editor, utf8_to_path(file));
 }
 
+// What is done when a panel asks.
+
+auto document_verbs(Editor& editor) {
+    return Overloaded{[&editor](const ask_for::New&) { ask_new(editor); },
+                      [&editor](const ask_for::Open& r) { ask_open(editor, r.file); },
+                      [&editor](const ask_for::Save&) { save(editor); },
+                      [&editor](const ask_for::SaveAs& r) { save_as(editor, r.file); },
+                      [&editor](const ask_for::Revert&) { revert(editor); },
+                      [&editor](const ask_for::Undo&) {
+                          const std::string what = editor.history.undo_what(editor.document);
+                          step(editor, editor.history.undo(editor.document), what, "Undone");
+                      },
+                      [&editor](const ask_for::Redo&) {
+                          const std::string what = editor.history.redo_what(editor.document);
+                          step(editor, editor.history.redo(editor.document), what, "Redone");
+                      },
+                      [&editor](const ask_for::Quit&) { ask_quit(editor); },
+                      [&editor](const ask_for::AnswerUnsaved& r) { answer_unsaved(editor, r.choice); },
+                      [&editor](const ask_for::AnswerRecovery& r) { answer_recovery(editor, r.recovery); },
+                      [&editor](const ask_for::ClearRecent&) {
+                          editor.settings.recent.clear();
+                          fill_catalog(editor);
+                      }};
+}
+
+auto material_verbs(Editor& editor) {
+    return Overloaded{[&editor](const ask_for::AssignMap& r) { assign_map(editor, r.slot, r.file); },
+                      [&editor](const ask_for::ClearMap& r) { clear_map(editor, r.slot); },
+                      [&editor](const ask_for::ReloadMap& r) {
+                          editor.reconciler.reload(*map_of(editor.document.material, r.slot).map);
+                      },
+                      [&editor](const ask_for::LocateMap& r) { locate_map(editor, r.slot, r.file); },
+                      [&editor](const ask_for::Dropped& r) { take_dropped(editor, r); },
+                      [&editor](const ask_for::ImportMaps& r) { propose_maps(editor, r.files); },
+                      [&editor](const ask_for::ApplyImport&) { apply_import_sheet(editor); },
+                      [&editor](const ask_for::CancelImport&) { editor.import_sheet.reset(); },
+                      [&editor](const ask_for::LoadEnvironment& r) { use_environment(editor, r.file); },
+                      [&editor](const ask_for::LoadMesh& r) { use_mesh(editor, r.file); }};
+}
+
+auto comparison_verbs(Editor& editor) {
+    return Overloaded{
+        [&editor](const ask_for::ShowSheet& r) { show_sheet(editor, r.shown); },
+        [&editor](const ask_for::ChangeSheet& r) { change_sheet(editor, r); },
+        [&editor](const ask_for::OpenSheet& r) { open_sheet(editor, r.file); },
+        [&editor](const ask_for::SaveSheet&) { save_sheet(editor); },
+        [&editor](const ask_for::SaveSheetAs& r) { save_sheet_as(editor, r.file); },
+        [&editor](const ask_for::SetPhoto& r) { set_photo(editor, editor.ui.sheet_selected, r.file); },
+        [&editor](const ask_for::PickCard& r) { pick_card(editor, r); },
+        [&editor](const ask_for::SetMapPhoto& r) { set_map_photo(editor, r.file); },
+        [&editor](const ask_for::MapPhotoOfView&) { take_map_photo_of_view(editor); },
+        [&editor](const ask_for::PickMapCard& r) { pick_map_card(editor, r); },
+        [&editor](const ask_for::MakeMaps&) { make_maps(editor); }};
+}
+
+auto other_verbs(Editor& editor) {
+    return Overloaded{[&editor](const ask_for::ExportRender& r) { export_picture(editor, r); },
+                      [&editor](const ask_for::ExportReport& r) { export_report(editor, r.file); },
+                      [&editor](const ask_for::Reveal& r) {
+                          if (!reveal_in_file_manager(utf8_to_path(r.path)))
+                              log_line(editor, ui::Severity::Warning,
+                                       "No file manager could be started to show " + r.path + ".");
+                      },
+                      [&editor](const ask_for::CancelJob& r) { cancel_job(editor, r.id); },
+                      [&editor](const ask_for::ClearLog&) { editor.status.log.clear(); },
+                      [&editor](const ask_for::ClearWork&) { editor.renderer.work() = {}; },
+                      [&editor](const ask_for::CopyText& r) { editor.clipboard = r.text; },
+                      [&editor](const ask_for::ListFolder& r) { list_folder(editor, r.folder); },
+                      [&editor](const ask_for::MakeFolder& r) { make_folder(editor, r.folder); }};
+}
+
 }  // namespace
 
 void carry_out(Editor& editor, const ui::Requests& requests) {
-    const Overloaded verbs{
-        [&](const ask_for::New&) { ask_new(editor); },
-        [&](const ask_for::Open& r) { ask_open(editor, r.file); },
-        [&](const ask_for::Save&) { save(editor); },
-        [&](const ask_for::SaveAs& r) { save_as(editor, r.file); },
-        [&](const ask_for::Revert&) { revert(editor); },
-        [&](const ask_for::Undo&) {
-            const std::string what = editor.history.undo_what(editor.document);
-            step(editor, editor.history.undo(editor.document), what, "Undone");
-        },
-        [&](const ask_for::Redo&) {
-            const std::string what = editor.history.redo_what(editor.document);
-            step(editor, editor.history.redo(editor.document), what, "Redone");
-        },
-        [&](const ask_for::Quit&) { ask_quit(editor); },
-        [&](const ask_for::AnswerUnsaved& r) { answer_unsaved(editor, r.choice); },
-        [&](const ask_for::AnswerRecovery& r) { answer_recovery(editor, r.recovery); },
-        [&](const ask_for::ClearRecent&) {
-            editor.settings.recent.clear();
-            fill_catalog(editor);
-        },
-        [&](const ask_for::AssignMap& r) { assign_map(editor, r.slot, r.file); },
-        [&](const ask_for::ClearMap& r) { clear_map(editor, r.slot); },
-        [&](const ask_for::ReloadMap& r) {
-            editor.reconciler.reload(*map_of(editor.document.material, r.slot).map);
-        },
-        [&](const ask_for::LocateMap& r) { locate_map(editor, r.slot, r.file); },
-        [&](const ask_for::Reveal& r) {
-            if (!reveal_in_file_manager(utf8_to_path(r.path)))
-                log_line(editor, ui::Severity::Warning,
-                         "No file manager could be started to show " + r.path + ".");
-        },
-        [&](const ask_for::Dropped& r) { take_dropped(editor, r); },
-        [&](const ask_for::ImportMaps& r) { propose_maps(editor, r.files); },
-        [&](const ask_for::ApplyImport&) { apply_import_sheet(editor); },
-        [&](const ask_for::CancelImport&) { editor.import_sheet.reset(); },
-        [&](const ask_for::LoadEnvironment& r) { use_environment(editor, r.file); },
-        [&](const ask_for::LoadMesh& r) { use_mesh(editor, r.file); },
-        [&](const ask_for::ExportRender& r) { export_picture(editor, r); },
-        [&](const ask_for::ShowSheet& r) { show_sheet(editor, r.shown); },
-        [&](const ask_for::ChangeSheet& r) { change_sheet(editor, r); },
-        [&](const ask_for::OpenSheet& r) { open_sheet(editor, r.file); },
-        [&](const ask_for::SaveSheet&) { save_sheet(editor); },
-        [&](const ask_for::SaveSheetAs& r) { save_sheet_as(editor, r.file); },
-        [&](const ask_for::SetPhoto& r) { set_photo(editor, editor.ui.sheet_selected, r.file); },
-        [&](const ask_for::PickCard& r) { pick_card(editor, r); },
-        [&](const ask_for::SetMapPhoto& r) { set_map_photo(editor, r.file); },
-        [&](const ask_for::MapPhotoOfView&) { take_map_photo_of_view(editor); },
-        [&](const ask_for::PickMapCard& r) { pick_map_card(editor, r); },
-        [&](const ask_for::MakeMaps&) { make_maps(editor); },
-        [&](const ask_for::ExportReport& r) { export_report(editor, r.file); },
-        [&](const ask_for::CancelJob& r) { cancel_job(editor, r.id); },
-        [&](const ask_for::ClearLog&) { editor.status.log.clear(); },
-        [&](const ask_for::ClearWork&) { editor.renderer.work() = {}; },
-        [&](const ask_for::CopyText& r) { editor.clipboard = r.text; },
-        [&](const ask_for::ListFolder& r) { list_folder(editor, r.folder); },
-        [&](const ask_for::MakeFolder& r) { make_folder(editor, r.folder); },
-    };
+    const Overloaded verbs{document_verbs(editor), material_verbs(editor), comparison_verbs(editor),
+                           other_verbs(editor)};
     for (const ui::Request& request : requests) std::visit(verbs, request);
     if (!requests.empty()) ++editor.changes;
 }

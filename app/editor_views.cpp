@@ -96,6 +96,8 @@ void Loop::draw_view(glm::ivec2 size_px) {
     const double now_s = window_.time_s();
     if (changed) changed_s_ = now_s;
     if (!changed && !(wants_refining() && now_s - changed_s_ >= kStillSeconds)) return;
+    // The very first picture is looked at before another one's shaders are compiled.
+    if (has_drawn_ && !is_shown_) return;
     const Pace quality = changed && has_drawn_ ? pace_.while_moving() : Pace::Good;
     const glm::ivec2 pixels = quality == Pace::Rough ? (size_px + 1) / 2 : size_px;
     TargetHandle& target = targets_[int(quality)];

@@ -4,7 +4,9 @@
 #include "app/program_store_io.h"
 #include "renderer/reference.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 namespace patina {
@@ -17,9 +19,23 @@ std::string percent(double share) {
     return text.data();
 }
 
-std::string confidence_text(const Confidence& known, int samples) {
-    return "reference: " + std::to_string(samples) + " samples a pixel; 95 % half-width: median " +
-           percent(known.median) + ", 95 of 100 pixels below " + percent(known.p95);
+std::string confidence_text(const ReferenceProgress& progress, double wanted) {
+    std::string text = "reference: " + std::to_string(progress.samples) + " samples a pixel";
+    if (wanted > 0.0)
+        text += " at most, " + std::to_string(std::lround(progress.mean_samples)) + " on average";
+    text += "; 95 % half-width: median " + percent(progress.confidence->median) +
+            ", 95 of 100 pixels below " + percent(progress.confidence->p95);
+    if (wanted > 0.0 && !progress.converged)
+        text += ": not the " + percent(wanted) + " asked for; allow more with --samples";
+    return text;
+}
+
+/// The half-width falls about as the square root of the points.
+float share_done(const ReferenceProgress& progress, int samples, double wanted) {
+    const double of_points = double(progress.samples) / samples;
+    if (wanted <= 0.0 || !progress.confidence) return float(of_points);
+    const double missing = std::max(progress.confidence->p95 / wanted, 1.0);
+    return float(std::max(of_points, 1.0 / (missing * missing)));
 }
 
 }  // namespace
@@ -37,22 +53,22 @@ Studio::Studio(const Registry& registry, const SceneOptions& options)
                    say(sentence);
                },
            .progress = [this](const std::string& what, float fraction) { progress.show(what, fraction); }}),
-      samples_(options.samples) {
+      samples_(options.samples),
+      error_(options.error) {
     renderer.set_reuse(options.skip);
     if (options.skip) renderer.set_program_store(program_store_in(cache_folder() / "programs"));
 }
 
 TargetHandle Studio::draw_reference(const Scene& scene, glm::ivec2 size_px) {
     TargetHandle target = renderer.make_target(size_px, 1, TargetPrecision::Full);
-    Reference reference(renderer, size_px, {.max_samples = samples_, .tolerance = 0.0});
+    Reference reference(renderer, size_px, {.max_samples = samples_, .tolerance = error_});
     reference.restart(scene);
     while (!reference.progress().done) {
         reference.draw();
-        progress.show("sampling the reference", float(reference.progress().samples) / float(samples_));
+        progress.show("sampling the reference", share_done(reference.progress(), samples_, error_));
     }
     progress.clear();
-    if (const auto& known = reference.progress().confidence)
-        say(confidence_text(*known, reference.progress().samples));
+    if (reference.progress().confidence) say(confidence_text(reference.progress(), error_));
     reference.write(*target);
     return target;
 }

@@ -22,7 +22,8 @@ struct Studio {
 
 private:
     TargetHandle draw_reference(const Scene& scene, glm::ivec2 size_px);
-    int samples_;  ///< points a pixel of the reference
+    int samples_;   ///< points a pixel of the reference
+    double error_;  ///< to what it is to be known; 0: whatever so many points give
 };
 
 /// What a picture's file says of itself.

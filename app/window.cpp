@@ -261,10 +261,12 @@ void Window::end_frame(Image* shown) {
 
 bool Window::wants_text() const { return ImGui::GetIO().WantTextInput; }
 
-bool Window::minimized() const {
+bool Window::out_of_sight() const {
     glm::ivec2 pixels;
     glfwGetFramebufferSize(state_->window, &pixels.x, &pixels.y);
-    return pixels.x <= 0 || pixels.y <= 0 || glfwGetWindowAttrib(state_->window, GLFW_ICONIFIED) == GLFW_TRUE;
+    return pixels.x <= 0 || pixels.y <= 0 ||
+           glfwGetWindowAttrib(state_->window, GLFW_ICONIFIED) == GLFW_TRUE ||
+           glfwGetWindowAttrib(state_->window, GLFW_VISIBLE) != GLFW_TRUE;
 }
 
 std::uint64_t Window::frames() const { return state_->frames; }
@@ -335,6 +337,14 @@ void Window::type_character(unsigned codepoint) {
 
 void Window::drop_files(const std::vector<std::string>& files) {
     state_->events.drops.push_back({files, state_->mouse});
+    state_->events.any = true;
+}
+
+void Window::set_shown(bool shown) {
+    if (shown)
+        glfwShowWindow(state_->window);
+    else
+        glfwHideWindow(state_->window);
     state_->events.any = true;
 }
 

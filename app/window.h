@@ -54,8 +54,8 @@ public:
     void begin_frame();
     void end_frame(Image* shown = nullptr);  ///< shown: gets the picture, 3 channels of 8 bits
     bool wants_text() const;                 ///< a text field has the keyboard: its caret blinks
-    bool minimized() const;
-    std::uint64_t frames() const;  ///< shown so far
+    bool out_of_sight() const;               ///< minimised, hidden or without a pixel
+    std::uint64_t frames() const;            ///< shown so far
 
     double time_s() const;
     float interface_scale() const;    ///< 1 = 96 dpi
@@ -77,6 +77,7 @@ public:
     void press_key(int key, bool down);
     void type_character(unsigned codepoint);
     void drop_files(const std::vector<std::string>& files);
+    void set_shown(bool shown);  ///< hides it, or brings it back
     void resize(glm::ivec2 size);
     void ask_to_close();
     void call_for_frame();  ///< only calls for a frame

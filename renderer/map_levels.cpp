@@ -122,9 +122,9 @@ void decode_row(const Image& image, int y, Meaning meaning, float* out) {
 /// What an average of unit normals, of that squared length, adds to alpha²: 1/2κ of the von Mises-Fisher lobe
 /// with the same mean, κ = (3R − R³)/(1 − R²) (Banerjee et al. 2005).
 float spread_of(float length2) {
-    const float R2 = std::clamp(length2, 0.0f, 1.0f);
-    const float R = std::sqrt(R2);
-    return std::min(0.5f * (1.0f - R2) / std::max(R * (3.0f - R2), 1e-3f), 1.0f);
+    const float squared = std::clamp(length2, 0.0f, 1.0f);
+    const float R = std::sqrt(squared);
+    return std::min(0.5f * (1.0f - squared) / std::max(R * (3.0f - squared), 1e-3f), 1.0f);
 }
 
 /// In place: averaged directions to unit ones, coded 0…1, and alpha = 1 − √spread.

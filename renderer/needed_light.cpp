@@ -25,7 +25,7 @@ double mean_multiple(int row) {
     double sum = 0.0;
     for (int x = 1; x <= last; ++x) {
         const double s = double(x) / last, width = (x < last ? 1.0 : 0.5) / last;
-        const double Ess = (double(ab[2 * x]) + double(ab[2 * x + 1])) / 65535.0;
+        const double Ess = (double(ab[std::size_t(2) * x]) + double(ab[std::size_t(2) * x + 1])) / 65535.0;
         sum += 4.0 * s * s * s * std::max(1.0 - Ess, 0.0) * width;
     }
     return sum;

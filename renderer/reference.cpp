@@ -18,6 +18,7 @@ constexpr int kReplicates = ReferenceTarget::kReplicates;
 constexpr int kMostAtOnce = 64;  ///< points of a slice, each of which sees the pixel's area at one place
 constexpr int kMostOfMiddle = blocks::kMostPoints;
 constexpr float kWeightOfOne = 1.0f / 4096.0f;
+constexpr double kFirstTolerance = 0.02;  ///< to which all pixels are known before any is known better
 
 enum Stream : std::uint64_t { Light, Reflection, Pixel };
 std::uint64_t seed_of(std::uint64_t seed, Stream stream) { return mix_bits(mix_bits(seed) + stream); }
@@ -44,7 +45,7 @@ blocks::PointBlock make_points(const LightSampler& light, const Place& place,
                                const ReferenceOptions& options) {
     blocks::PointBlock block{};
     for (int i = 0; i < place.count; ++i) {
-        glm::vec4* const rows = &block.point_rows[3 * i];
+        glm::vec4* const rows = &block.point_rows[std::size_t(3) * i];
         const std::uint32_t index = sequence_index(place.replicate, place.first + i, longest_of(options));
         const glm::dvec3 u = scrambled_sobol(index, seed_of(options.seed, Light));
         const LightSample sample = light.sample({u.x, u.y});
@@ -71,14 +72,20 @@ struct Reference::State {
     std::shared_ptr<const LightSampler> light;
     EnvironmentHandle light_of;
     ReferenceProgress progress;
-    Place next;            ///< all replicates have the points before next.first
-    int round = 0;         ///< of one slice a replicate
-    int judged = 0;        ///< samples at the last judgement
-    int wanted_count = 0;  ///< points of a slice from the next round on; 0: as many as is good
+    Place next;                 ///< all replicates have the points before next.first
+    int round = 0;              ///< of one slice a replicate
+    int judged = 0;             ///< samples at the last judgement
+    double wanted = 0.0;        ///< to what pixels are to be known before they rest
+    std::vector<float> counts;  ///< as ReferenceTarget's
+    int counted = 0;            ///< samples when they were set
+    int wanted_count = 0;       ///< points of a slice from the next round on; 0: as many as is good
 
     int most_at_once() const;
     int count_at_once() const { return wanted_count > 0 ? wanted_count : most_at_once(); }
     glm::vec2 jitter_px() const;
+    void begin();
+    void judge();
+    void rest(const std::vector<float>& half_widths);
     void end_round();
 };
 
@@ -95,17 +102,65 @@ glm::vec2 Reference::State::jitter_px() const {
     return glm::vec2(glm::dvec2(u.x, u.y) - 0.5);
 }
 
+void Reference::State::begin() {
+    progress = {};
+    round = judged = counted = 0;
+    next = {.count = count_at_once()};
+    wanted = std::max(options.tolerance, kFirstTolerance);
+    counts.assign(2 * std::size_t(target.size.x) * target.size.y, 0.0f);
+    for (std::size_t i = 1; i < counts.size(); i += 2) counts[i] = 1.0f;
+    gl::set_reference_counts(target, counts);
+    gl::clear_reference(target);
+}
+
+/// Those pixels rest around which all that count are known well enough; what is no part of the mesh costs
+/// little.
+void Reference::State::rest(const std::vector<float>& half_widths) {
+    constexpr int around = 2;
+    const int width = target.size.x, height = target.size.y;
+    const auto is_known = [&](int x, int y) {
+        for (int j = std::max(y - around, 0); j <= std::min(y + around, height - 1); ++j)
+            for (int i = std::max(x - around, 0); i <= std::min(x + around, width - 1); ++i)
+                if (double(half_widths[std::size_t(j) * width + i]) > wanted) return false;
+        return true;
+    };
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const std::size_t i = std::size_t(y) * width + x;
+            const bool rests = half_widths[i] >= 0.0f && double(half_widths[i]) <= wanted && is_known(x, y);
+            counts[2 * i + 1] = rests ? 0.0f : 1.0f;
+        }
+    gl::set_reference_counts(target, counts);
+}
+
+void Reference::State::judge() {
+    const std::size_t pixels = counts.size() / 2;
+    std::vector<float> samples(pixels);
+    for (std::size_t i = 0; i < pixels; ++i)
+        samples[i] = counts[2 * i] += counts[2 * i + 1] * float(progress.samples - counted);
+    counted = judged = progress.samples;
+    const std::vector<float> half_widths = half_widths_of(gl::read_replicates(target), kReplicates, samples);
+    double sum = 0.0;
+    std::size_t of_mesh = 0;
+    for (std::size_t i = 0; i < pixels; ++i)
+        if (half_widths[i] >= 0.0f) {
+            sum += double(samples[i]);
+            ++of_mesh;
+        }
+    progress.mean_samples = of_mesh == 0 ? double(progress.samples) : sum / double(of_mesh);
+    progress.confidence = confidence_of(half_widths);
+    progress.converged = progress.confidence->p95 <= options.tolerance;
+    if (progress.confidence->p95 <= wanted) wanted = std::max(options.tolerance, 0.5 * wanted);
+    rest(half_widths);
+}
+
 void Reference::State::end_round() {
     const int left = longest_of(options) - next.first - next.count;
     next = {.replicate = 0, .first = next.first + next.count, .count = std::min(count_at_once(), left)};
     ++round;
     const bool last = left <= 0;
-    const bool judge = options.tolerance > 0.0 && round >= 4 && 4 * progress.samples >= 5 * judged;
-    if (last || judge) {
-        progress.confidence = confidence_of(gl::read_replicates(target), kReplicates);
-        progress.converged = progress.confidence->p95 <= options.tolerance;
-        judged = progress.samples;
-    }
+    const bool is_due = options.tolerance > 0.0 && round >= 4 && 4 * progress.samples >= 5 * judged;
+    if (last || is_due) judge();
     progress.done = last || progress.converged;
 }
 
@@ -134,10 +189,7 @@ void Reference::restart(const Scene& scene, std::shared_ptr<const LightSampler> 
         state.light = std::make_shared<LightSampler>(panorama_of(scene.environment));
     state.light_of = scene.environment;
     state.scene = scene;
-    state.progress = {};
-    state.round = state.judged = 0;
-    state.next = {.count = state.count_at_once()};
-    gl::clear_reference(state.target);
+    state.begin();
 }
 
 glm::ivec2 Reference::size_px() const { return state_->target.size; }
@@ -181,7 +233,7 @@ void Reference::finish() {
 void Reference::write(RenderTarget& target) const {
     const State& state = *state_;
     target.plain = state.scene.view.plain_color;
-    gl::write_reference_mean(state.target, float(state.progress.samples) * kWeightOfOne, target);
+    gl::write_reference_mean(state.target, state.progress.samples - state.counted, kWeightOfOne, target);
     state.renderer.show(state.scene.view, target);
 }
 

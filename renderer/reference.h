@@ -8,7 +8,10 @@
 // occlusion map scales the light of the environment, while emission is added as it is.
 //
 // How: eight replicates grow side by side along runs of an Owen-scrambled Sobol sequence, each an unbiased
-// estimate; their scatter gives the confidence interval. Same scene, same options, same bytes.
+// estimate; their scatter gives the confidence interval. Same scene, same options, same bytes. With a
+// tolerance, pixels rest whose whole neighbourhood is known well enough, at first to a few percent, in the
+// end to the tolerance: the few that need many points get them. Without one all pixels have the same number
+// of points.
 #pragma once
 
 #include "renderer/core/confidence.h"
@@ -22,14 +25,15 @@
 namespace patina {
 
 struct ReferenceOptions {
-    int max_samples = 4096;   ///< points a pixel, at which it stops in any case (a multiple of 8)
+    int max_samples = 16384;  ///< points a pixel, at which it stops in any case (a multiple of 8)
     double tolerance = 1e-3;  ///< it stops once 95 of 100 pixels are known better (Confidence::p95); 0: never
     bool pixel_filter = true;  ///< false: the middle of each pixel alone
     std::uint64_t seed = 1;
 };
 
 struct ReferenceProgress {
-    int samples = 0;  ///< points a pixel so far
+    int samples = 0;            ///< points so far of a pixel that never rested
+    double mean_samples = 0.0;  ///< of the mesh's pixels, at the last judgement
     std::optional<Confidence> confidence;
     bool converged = false;  ///< within the tolerance
     bool done = false;       ///< converged or at the limit

@@ -89,39 +89,6 @@ void Renderer::State::draw_radiance(const Scene& scene, const GpuEnvironment& en
     count_draw(1);
 }
 
-void Renderer::State::draw_reference(const Scene& scene, const GpuEnvironment& environment,
-                                     ReferenceTarget& target, const ReferenceSlice& slice) {
-    View view = scene.view;
-    view.debug = DebugView::Final;
-    const Features features = reference_features(features_for(scene, environment));
-    auto frame = make_frame_block(scene.camera, view, target.size, layout_of(environment),
-                                  std::numeric_limits<float>::max());
-    move_picture(frame, 2.0f * slice.jitter_px / glm::vec2(target.size));
-    const float exposure = frame.camera_position.w;
-    set_switches();
-    gl::begin_reference_slice(target, slice.replicate, slice.weight);
-    upload_block(frame_rows, gl::kFrameSlot, frame);
-    upload_block(material_rows, gl::kMaterialSlot, make_material_block(scene.material, features, exposure));
-    bind_light(environment);
-    if (scene.mesh) {
-        bind_maps(scene);
-        glBindBufferBase(GL_UNIFORM_BUFFER, gl::kPointSlot, target.points.name());
-        gl::begin_reference_pass(gl::ReferencePass::Depth);
-        glUseProgram(depth_only().name());
-        gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
-        gl::begin_reference_pass(gl::ReferencePass::Surface);
-        const gl::Program& program = reference(features, colored_lights(environment));
-        glUseProgram(program.name());
-        const double light = slice.total * double(exposure);
-        glUniform2f(glGetUniformLocation(program.name(), "reference_slice"), float(slice.points),
-                    light > 0.0 ? float(1.0 / light) : 0.0f);
-        gl::draw_mesh(*scene.mesh, camera_position(scene.camera));
-    }
-    gl::begin_reference_pass(gl::ReferencePass::Background);
-    if (view.background != Background::Plain) draw_background(view.background);
-    gl::end_reference_slice();
-}
-
 void Renderer::State::draw_display(const View& view, const RenderTarget& target) {
     glBindFramebuffer(GL_FRAMEBUFFER, target.display_framebuffer.name());
     glDisable(GL_DEPTH_TEST);
@@ -223,7 +190,7 @@ void Renderer::draw(const Scene& scene, RenderTarget& target, Reuse reuse) {
     target.plain = scene.view.plain_color;
     auto surfaces = state_->surfaces_for(shown, target, features_for(shown, environment), reuse);
     if (surfaces)
-        state_->shade_stored(shown, environment, target, std::move(surfaces));
+        state_->shade_stored(shown, environment, target, surfaces);
     else
         state_->draw_radiance(shown, environment, target);
     state_->draw_display(shown.view, target);

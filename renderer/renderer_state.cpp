@@ -135,8 +135,9 @@ const gl::Program& Renderer::State::reference(Features features, std::size_t lig
     gl::Program& program = references[{features, kind}];
     if (program) return program;
     std::vector<std::string> defines = defines_of(features);
+    if ((features & kMaps) != 0) defines.emplace_back("HAS_STORED_MAPS");
     defines.push_back("PANORAMA_LIGHTS=" + std::to_string(kind));
-    program = compiled("mesh.vert.glsl", "reference.frag.glsl", defines);
+    program = compiled("display.vert.glsl", "reference.frag.glsl", defines);
     return program;
 }
 
@@ -147,11 +148,6 @@ const gl::Program& Renderer::State::rival(Features features, int samples) {
     defines.push_back("RIVAL_SAMPLES=" + std::to_string(samples));
     program = compiled("mesh.vert.glsl", "rivals.frag.glsl", defines);
     return program;
-}
-
-const gl::Program& Renderer::State::depth_only() {
-    if (!depth) depth = compiled("mesh.vert.glsl", "depth.frag.glsl", {});
-    return depth;
 }
 
 const gl::Program& Renderer::State::background(Background background, bool stored_rays) {

@@ -38,6 +38,13 @@ void upload_block(const gl::Buffer& buffer, GLuint slot, const Block& block) {
     glBindBufferBase(GL_UNIFORM_BUFFER, slot, buffer.name());
 }
 
+inline constexpr Features kMaps = Features(Feature::AlbedoMap) | Features(Feature::RoughnessMap) |
+                                  Features(Feature::MetallicMap) | Features(Feature::AoMap) |
+                                  Features(Feature::NormalMap) | Features(Feature::EmissionMap);
+/// maps: of kMaps.
+SurfaceMaps kind_of(Features maps);
+std::vector<std::string> stored_defines(Features maps);
+
 inline std::string stored_width() { return "STORED_WIDTH=" + std::to_string(GpuSurfaces::kWidth) + "u"; }
 inline constexpr int kIdleScratch = 32;  ///< pictures after which where they were rasterised is given back
 
@@ -57,7 +64,6 @@ struct Renderer::State {
     std::map<Features, gl::Program> surfaces;
     std::map<std::pair<Features, int>, gl::Program> references;  ///< by lights: 0, 1, more
     std::map<std::pair<Features, int>, gl::Program> rivals;      ///< by samples
-    gl::Program depth;                                           ///< of a mesh, nothing else
     std::array<gl::Program, 4> backgrounds;                      ///< sharp, blurred; the same of stored rays
     std::map<std::tuple<int, int, bool>, gl::Program> displays;  ///< by samples, tone mapper, stored
     StoredPrograms stored;
@@ -77,7 +83,6 @@ struct Renderer::State {
     const gl::Program& surface(Features features);
     const gl::Program& reference(Features features, std::size_t lights);
     const gl::Program& rival(Features features, int samples);
-    const gl::Program& depth_only();
     const gl::Program& background(Background background, bool stored = false);
     const gl::Program& display(int samples, Tonemap tonemap, bool stored);
     void bind_light(const GpuEnvironment& environment) const;
@@ -88,11 +93,15 @@ struct Renderer::State {
                        std::optional<int> rival_samples = {});
     void bind_maps(const Scene& scene) const;
     void draw_background(Background background);
-    void draw_reference(const Scene& scene, const GpuEnvironment& environment, ReferenceTarget& target,
-                        const ReferenceSlice& slice);
     void draw_display(const View& view, const RenderTarget& target);
 
+    // renderer_reference.cpp
+    void draw_reference(const Scene& scene, const GpuEnvironment& environment, ReferenceTarget& target,
+                        const ReferenceSlice& slice);
+
     // renderer_stored.cpp
+    /// The mesh as frame sees it into the surface layers that are bound.
+    void rasterise(const Scene& scene, const blocks::FrameBlock& frame, Features maps);
     const gl::Program& stored_surface(Features features);
     gl::SurfacePrograms surface_programs(int samples, Features maps);
     std::shared_ptr<const GpuSurfaces> surfaces_for(const Scene& scene, const RenderTarget& target,
@@ -100,7 +109,7 @@ struct Renderer::State {
     std::shared_ptr<const GpuSurfaces> rasterised(const Scene& scene, const RenderTarget& target,
                                                   Features maps);
     void shade_stored(const Scene& scene, const GpuEnvironment& environment, RenderTarget& target,
-                      std::shared_ptr<const GpuSurfaces> surfaces);
+                      const std::shared_ptr<const GpuSurfaces>& surfaces);
     void draw_resolved(const RenderTarget& target);
 };
 

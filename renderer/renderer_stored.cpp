@@ -10,15 +10,6 @@ namespace {
 
 constexpr std::uint64_t kMostScratchBytes = std::uint64_t{384} << 20;
 constexpr std::uint64_t kSmallScratchBytes = std::uint64_t{64} << 20;
-constexpr Features kMaps = Features(Feature::AlbedoMap) | Features(Feature::RoughnessMap) |
-                           Features(Feature::MetallicMap) | Features(Feature::AoMap) |
-                           Features(Feature::NormalMap) | Features(Feature::EmissionMap);
-
-SurfaceMaps kind_of(Features maps) {
-    if (has(maps, Feature::EmissionMap)) return SurfaceMaps::SomeAndEmission;
-    return maps == 0 ? SurfaceMaps::None : SurfaceMaps::Some;
-}
-
 /// Its maps as they are, but for the normals, which are kept as shaded.
 Material with_plain_values(const Material& material) {
     Material plain = material;
@@ -27,12 +18,6 @@ Material with_plain_values(const Material& material) {
         slot->invert = false;
     }
     return plain;
-}
-
-std::vector<std::string> stored_defines(Features maps) {
-    std::vector<std::string> defines = defines_of(maps);
-    if (maps != 0) defines.emplace_back("HAS_STORED_MAPS");
-    return defines;
 }
 
 std::vector<std::string> with_samples(std::vector<std::string> defines, int samples) {
@@ -58,6 +43,17 @@ SurfaceKey key_of(const Scene& scene, Features maps, glm::ivec2 size_px, int sam
 }
 
 }  // namespace
+
+SurfaceMaps kind_of(Features maps) {
+    if (has(maps, Feature::EmissionMap)) return SurfaceMaps::SomeAndEmission;
+    return maps == 0 ? SurfaceMaps::None : SurfaceMaps::Some;
+}
+
+std::vector<std::string> stored_defines(Features maps) {
+    std::vector<std::string> defines = defines_of(maps);
+    if (maps != 0) defines.emplace_back("HAS_STORED_MAPS");
+    return defines;
+}
 
 const gl::Program& Renderer::State::stored_surface(Features features) {
     gl::Program& program = stored.shade[features];
@@ -112,13 +108,7 @@ std::shared_ptr<const GpuSurfaces> Renderer::State::surfaces_for(const Scene& sc
     return made;
 }
 
-std::shared_ptr<const GpuSurfaces> Renderer::State::rasterised(const Scene& scene, const RenderTarget& target,
-                                                               Features maps) {
-    if (!scratch.fits(target.size, target.samples, kind_of(maps)))
-        scratch.make(target.size, target.samples, kind_of(maps));
-    set_switches();
-    scratch.begin();
-    const auto frame = make_frame_block(scene.camera, scene.view, target.size, {}, 0.0f);
+void Renderer::State::rasterise(const Scene& scene, const blocks::FrameBlock& frame, Features maps) {
     upload_block(frame_rows, gl::kFrameSlot, frame);
     upload_block(material_rows, gl::kMaterialSlot,
                  make_material_block(with_plain_values(scene.material), maps, 1.0f));
@@ -127,6 +117,15 @@ std::shared_ptr<const GpuSurfaces> Renderer::State::rasterised(const Scene& scen
     if (!program) program = compiled("mesh.vert.glsl", "surfaces.frag.glsl", stored_defines(maps));
     glUseProgram(program.name());
     draw_counted_mesh(scene);
+}
+
+std::shared_ptr<const GpuSurfaces> Renderer::State::rasterised(const Scene& scene, const RenderTarget& target,
+                                                               Features maps) {
+    if (!scratch.fits(target.size, target.samples, kind_of(maps)))
+        scratch.make(target.size, target.samples, kind_of(maps));
+    set_switches();
+    scratch.begin();
+    rasterise(scene, make_frame_block(scene.camera, scene.view, target.size, {}, 0.0f), maps);
     if (!stored.behind) stored.behind = compiled("background.vert.glsl", "surfaces_behind.frag.glsl", {});
     glDepthMask(GL_FALSE);
     glUseProgram(stored.behind.name());
@@ -138,7 +137,7 @@ std::shared_ptr<const GpuSurfaces> Renderer::State::rasterised(const Scene& scen
 }
 
 void Renderer::State::shade_stored(const Scene& scene, const GpuEnvironment& environment,
-                                   RenderTarget& target, std::shared_ptr<const GpuSurfaces> from) {
+                                   RenderTarget& target, const std::shared_ptr<const GpuSurfaces>& from) {
     set_switches();
     gl::begin_shading(target.stored, from, target.full_float);
     const Features features = prepare(scene, environment, target);

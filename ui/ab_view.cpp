@@ -92,6 +92,7 @@ void draw_ab_choice(PanelContext& context) {
         if (choices[i] == ab.against) index = int(i);
     }
     std::vector<Option> options;
+    options.reserve(titles.size());
     for (const std::string& title : titles) options.push_back({title, "What the view is held against."});
     if (combo(context, "sheet.against", options, index,
               {.width = std::min(px(190), 0.4f * ImGui::GetContentRegionAvail().x),

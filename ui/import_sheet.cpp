@@ -149,6 +149,11 @@ void draw_import_sheet(PanelContext& context) {
         checkbox(context, "import.mesh", on_mesh.c_str(),
                  "The mesh that lies with the maps; otherwise the material stays on the present one.",
                  sheet.use_mesh);
+    const std::string lit_by = "Light it by " + std::string(file_name_of(sheet.environment));
+    if (!sheet.environment.empty())
+        checkbox(context, "import.environment", lit_by.c_str(),
+                 "The environment that came with the maps; otherwise the light stays as it is.",
+                 sheet.use_environment);
     draw_answers(context, sheet, list_open);
     end_question();
 }

@@ -143,6 +143,8 @@ struct ImportSheet {
     bool rename_material = true;     ///< give the material the set's name
     std::string mesh;                ///< a mesh that lay with the maps; empty: none, or several
     bool use_mesh = true;            ///< show the material on it
+    std::string environment;         ///< an environment that lay with them; empty: none, or several
+    bool use_environment = true;     ///< light the material by it
 };
 
 // ---- the file browser ----

@@ -162,19 +162,19 @@ void draw_photo_choice(PanelContext& context) {
 
 void draw_straight(PanelContext& context) {
     MapSettings& settings = context.ui.maps.settings;
-    static constexpr std::array kSizes{512, 1024, 2048, 4096};
-    std::array<std::string, kSizes.size()> titles;
-    std::array<Option, kSizes.size()> options;
+    static constexpr std::array sizes{512, 1024, 2048, 4096};
+    std::array<std::string, sizes.size()> titles;
+    std::array<Option, sizes.size()> options;
     int index = 1;
-    for (std::size_t i = 0; i < kSizes.size(); ++i) {
-        titles[i] = std::to_string(kSizes[i]);
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        titles[i] = std::to_string(sizes[i]);
         options[i] = {titles[i], "Pixels a side of the maps."};
-        if (settings.size_px.x == kSizes[i]) index = int(i);
+        if (settings.size_px.x == sizes[i]) index = int(i);
     }
     draw_node(context, {"rectified", "Straight", "The sample as seen from straight above.",
                         context.maps_status.rectified});
     if (segmented(context, "maps.size", options, index))
-        settings.size_px = glm::ivec2(kSizes[std::size_t(index)]);
+        settings.size_px = glm::ivec2(sizes[std::size_t(index)]);
 }
 
 void draw_even(PanelContext& context) {

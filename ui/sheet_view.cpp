@@ -35,8 +35,9 @@ Rect cell_rect(const Rect& rect, const Grid& grid, int index) {
     const float gap = std::round(px(kGap));
     const float width = (rect.width() - gap * float(grid.columns - 1)) / float(grid.columns);
     const float height = (rect.height() - gap * float(grid.rows - 1)) / float(grid.rows);
-    const float left = rect.x0 + float(index % grid.columns) * (width + gap);
-    const float top = rect.y0 + float(index / grid.columns) * (height + gap);
+    const int column = index % grid.columns, row = index / grid.columns;
+    const float left = rect.x0 + float(column) * (width + gap);
+    const float top = rect.y0 + float(row) * (height + gap);
     return {std::round(left), std::round(top), std::round(left + width), std::round(top + height)};
 }
 

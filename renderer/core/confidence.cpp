@@ -18,27 +18,39 @@ double student_t95(int count) {
     return z + (z3 + z) / (4.0 * freedom) + (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * freedom * freedom);
 }
 
-Confidence confidence_of(std::span<const float> values, int count) {
+std::vector<float> half_widths_of(std::span<const float> values, int count, std::span<const float> weights) {
     const std::size_t pixels = values.size() / count;
-    std::vector<double> means, half_widths;
-    const double t = student_t95(count);
+    std::vector<float> half_widths(pixels, -1.0f);
+    std::vector<double> means(pixels, 0.0);
+    const double t = student_t95(count) / std::sqrt(double(count - 1) * count);
     double total = 0.0;
+    std::size_t counted = 0;
     for (std::size_t i = 0; i < pixels; ++i) {
         double mean = 0.0, scatter = 0.0;
         for (int k = 0; k < count; ++k) mean += double(values[k * pixels + i]) / count;
         if (mean == 0.0) continue;
-        for (int k = 0; k < count; ++k) scatter += std::pow(double(values[k * pixels + i]) - mean, 2);
-        means.push_back(mean);
-        half_widths.push_back(t * std::sqrt(scatter / (double(count - 1) * count)));
-        total += mean;
+        for (int k = 0; k < count; ++k) {
+            const double off = double(values[k * pixels + i]) - mean;
+            scatter += off * off;
+        }
+        const double scale = weights.empty() ? 1.0 : 1.0 / double(weights[i]);
+        half_widths[i] = float(scale * t * std::sqrt(scatter));
+        total += means[i] = scale * mean;
+        ++counted;
     }
-    if (means.empty()) return {};
-    const double floor = 0.01 * total / double(means.size());
-    for (std::size_t i = 0; i < means.size(); ++i) half_widths[i] /= std::max(means[i], floor);
+    const double floor = counted == 0 ? 1.0 : 0.01 * total / double(counted);
+    for (std::size_t i = 0; i < pixels; ++i)
+        if (half_widths[i] >= 0.0f) half_widths[i] /= float(std::max(means[i], floor));
+    return half_widths;
+}
+
+Confidence confidence_of(std::vector<float> half_widths) {
+    std::erase_if(half_widths, [](float each) { return each < 0.0f; });
+    if (half_widths.empty()) return {};
     const auto quantile = [&](double share) {
         const auto at = half_widths.begin() + std::ptrdiff_t(share * double(half_widths.size() - 1));
         std::nth_element(half_widths.begin(), at, half_widths.end());
-        return *at;
+        return double(*at);
     };
     return {quantile(0.5), quantile(0.95), quantile(1.0)};
 }

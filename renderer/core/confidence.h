@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 namespace patina {
 
@@ -15,8 +16,11 @@ struct Confidence {
     double p95 = 0.0;  ///< 95 of 100 pixels are known better
     double max = 0.0;
 };
-/// values: count pictures one after the other, independent estimates up to a common factor. Precondition:
-/// count ≥ 2.
-Confidence confidence_of(std::span<const float> values, int count);
+/// Of each pixel; negative where it does not count. values: count pictures one after the other, independent
+/// estimates up to a common factor; weights: one a pixel, what its values are to be divided by (empty: none).
+/// Precondition: count ≥ 2.
+std::vector<float> half_widths_of(std::span<const float> values, int count,
+                                  std::span<const float> weights = {});
+Confidence confidence_of(std::vector<float> half_widths);
 
 }  // namespace patina

@@ -6,9 +6,9 @@ namespace patina {
 
 const FourierTransform& fourier_transform() {
     using Entry = const FourierTransform* (*)();
-    static const FourierTransform* const kTransform =
+    static const FourierTransform* const transform =
         reinterpret_cast<Entry>(module_symbol(kImageModule, kFourierEntry))();
-    return *kTransform;
+    return *transform;
 }
 
 }  // namespace patina

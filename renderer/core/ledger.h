@@ -48,6 +48,7 @@ struct WorkLedger {
     std::uint64_t views_drawn = 0;          ///< pictures of a scene, thumbnails included
     std::uint64_t surfaces_rasterised = 0;  ///< to be shaded more than once
     std::uint64_t views_from_surfaces = 0;  ///< pictures shaded from one of those
+    std::uint64_t reference_points = 0;     ///< directions a pixel, of the integral itself
     std::uint64_t draw_calls = 0;
     std::uint64_t triangles_drawn = 0;
     std::uint64_t pixels_drawn = 0;  ///< of the pictures, whatever lies in them
@@ -96,6 +97,7 @@ inline constexpr std::array kLedgerRows{
     LedgerRow{"surfaces_rasterised", "Pictures", "Surfaces rasterised", &WorkLedger::surfaces_rasterised},
     LedgerRow{"views_from_surfaces", "Pictures", "Pictures shaded from those",
               &WorkLedger::views_from_surfaces},
+    LedgerRow{"reference_points", "Pictures", "Reference points a pixel", &WorkLedger::reference_points},
     LedgerRow{"draw_calls", "Pictures", "Draw calls", &WorkLedger::draw_calls},
     LedgerRow{"triangles_drawn", "Pictures", "Triangles drawn", &WorkLedger::triangles_drawn},
     LedgerRow{"pixels_drawn", "Pictures", "Pixels of pictures", &WorkLedger::pixels_drawn},

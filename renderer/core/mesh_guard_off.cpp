@@ -88,6 +88,7 @@ private:
         }
         if (next_word(file_.text, line).empty())
             refuse("the number of edges is missing after vertices and faces.");
+        overwrite(file_.text, line, "");  // the reader would take what follows for the first vertex
         // A vertex line takes at least six bytes, a face line eight.
         const std::size_t left = rest_.end - rest_.begin + 1;
         if (counts[0] > kMaxMeshVertices || counts[1] > kMaxMeshFaces)

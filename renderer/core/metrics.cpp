@@ -101,11 +101,9 @@ void viridis(double t, float rgb[3]) {
 }
 
 void diverging(double t, float rgb[3]) {
-    static constexpr float kEnds[3][3] = {
-        {0.05f, 0.30f, 0.85f}, {0.88f, 0.88f, 0.88f}, {0.85f, 0.15f, 0.10f}};
+    static constexpr float ends[3][3] = {{0.05f, 0.30f, 0.85f}, {0.88f, 0.88f, 0.88f}, {0.85f, 0.15f, 0.10f}};
     const float x = float(std::clamp(t, -1.0, 1.0));
-    for (int c = 0; c < 3; ++c)
-        rgb[c] = kEnds[1][c] + std::abs(x) * (kEnds[x < 0.0f ? 0 : 2][c] - kEnds[1][c]);
+    for (int c = 0; c < 3; ++c) rgb[c] = ends[1][c] + std::abs(x) * (ends[x < 0.0f ? 0 : 2][c] - ends[1][c]);
 }
 
 namespace {

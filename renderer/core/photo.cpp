@@ -200,15 +200,14 @@ Image delta_e_picture(const Image& photo, const Image& render, const std::option
 }
 
 Image heat_picture(const Image& values, float white) {
-    static constexpr std::array<glm::vec3, 5> kStops{
+    static constexpr std::array<glm::vec3, 5> stops{
         glm::vec3{0, 0, 0}, {0.10f, 0.10f, 0.55f}, {0.80f, 0.15f, 0.25f}, {1.0f, 0.75f, 0.15f}, {1, 1, 1}};
     Image picture = make_image(values.width, values.height, 3, PixelType::U8);
     for (int y = 0; y < values.height; ++y)
         for (int x = 0; x < values.width; ++x) {
-            const float at =
-                std::clamp(texel(values, x, y, 0) / white, 0.0f, 1.0f) * float(kStops.size() - 1);
-            const auto i = std::min(std::size_t(at), kStops.size() - 2);
-            const glm::vec3 color = glm::mix(kStops[i], kStops[i + 1], at - float(i));
+            const float at = std::clamp(texel(values, x, y, 0) / white, 0.0f, 1.0f) * float(stops.size() - 1);
+            const auto i = std::min(std::size_t(at), stops.size() - 2);
+            const glm::vec3 color = glm::mix(stops[i], stops[i + 1], at - float(i));
             for (int c = 0; c < 3; ++c) set_texel(picture, x, y, c, color[c]);
         }
     return picture;

@@ -135,6 +135,8 @@ void bind_interface(GLuint program) {
         {"stored_scalars", kFirstStoredUnit + 4},
         {"stored_emissions", kFirstStoredUnit + 5},
         {"fragment_places", kFragmentPlacesUnit},
+        {"stored_fragments", kFragmentPlacesUnit},
+        {"reference_counts", kFragmentPlacesUnit},
         {"fragment_of_pixel", kFragmentOfPixelUnit},
         {"fragments_of_samples", kFragmentsOfSamplesUnit},
     };

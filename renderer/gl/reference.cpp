@@ -24,6 +24,12 @@ glm::vec3 light_color(const std::vector<ExtractedLight>& lights, glm::vec3 direc
     return E * (3.0f / std::max(E.x + E.y + E.z, 1e-30f));
 }
 
+void bind_to(GLuint unit, const Texture& texture) {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindSampler(unit, 0);
+    glBindTexture(GL_TEXTURE_2D, texture.name());
+}
+
 void no_filter(GLenum kind) {
     for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
         glTexParameteri(kind, filter, GL_NEAREST);
@@ -53,10 +59,10 @@ void make_textures(ReferenceTarget& target) {
                  GL_FLOAT, nullptr);
     no_filter(GL_TEXTURE_2D_ARRAY);
     glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
-    target.depth = Renderbuffer::make();
-    glBindRenderbuffer(GL_RENDERBUFFER, target.depth.name());
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, size.x, size.y);
-    glBindRenderbuffer(GL_RENDERBUFFER, 0);
+    target.counts = Texture::make();
+    glBindTexture(GL_TEXTURE_2D, target.counts.name());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, size.x, size.y, 0, GL_RG, GL_FLOAT, nullptr);
+    no_filter(GL_TEXTURE_2D);
 }
 
 void make_framebuffers(ReferenceTarget& target) {
@@ -65,7 +71,6 @@ void make_framebuffers(ReferenceTarget& target) {
         glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffers[i].name());
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.sum.name(), 0);
         glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, target.replicates.name(), 0, i);
-        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target.depth.name());
         const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
         glDrawBuffers(2, both);
         require_complete(target.size);
@@ -83,6 +88,8 @@ ReferenceTarget make_reference_target(glm::ivec2 size) {
     make_framebuffers(target);
     target.mean =
         make_program(embedded_shader("display.vert.glsl"), embedded_shader("reference_mean.frag.glsl"));
+    target.resting =
+        make_program(embedded_shader("display.vert.glsl"), embedded_shader("reference_resting.frag.glsl"));
     target.nothing = VertexArray::make();
     check_memory("the reference picture");
     clear_reference(target);
@@ -101,30 +108,49 @@ void clear_reference(ReferenceTarget& target) {
     }
 }
 
+void set_reference_counts(ReferenceTarget& target, const std::vector<float>& counts) {
+    const KeepTextureBindings keep;
+    glBindTexture(GL_TEXTURE_2D, target.counts.name());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, target.size.x, target.size.y, GL_RG, GL_FLOAT, counts.data());
+}
+
 void set_reference_points(ReferenceTarget& target, const blocks::PointBlock& points) {
     if (!target.points) target.points = Buffer::make();
     glBindBuffer(GL_UNIFORM_BUFFER, target.points.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof points, &points, GL_STREAM_DRAW);
 }
 
+void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps) {
+    if (!target.surface.fits(target.size, 1, maps)) {
+        target.surface.make(target.size, 1, maps);
+        for (const Framebuffer& framebuffer : target.framebuffers) {
+            glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+            target.surface.share_depth();
+            require_complete(target.size);
+        }
+    }
+    target.surface.begin();
+    bind_to(kFragmentPlacesUnit, target.counts);
+    glDepthFunc(GL_ALWAYS);
+    glUseProgram(target.resting.name());
+    glBindVertexArray(target.nothing.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDepthFunc(GL_LEQUAL);
+}
+
 void begin_reference_slice(const ReferenceTarget& target, int replicate, float weight) {
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffers[replicate].name());
-    glViewport(0, 0, target.size.x, target.size.y);
-    const GLfloat far = 1.0f;
-    glClearBufferfv(GL_DEPTH, 0, &far);
+    target.surface.bind_layers();
+    glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE);
     glBlendColor(0.0f, 0.0f, 0.0f, weight);
 }
 
-void begin_reference_pass(ReferencePass pass) {
-    const GLboolean color = pass == ReferencePass::Depth ? GL_FALSE : GL_TRUE;
-    const GLboolean replicate = pass == ReferencePass::Surface ? GL_TRUE : GL_FALSE;
-    glColorMaski(0, color, color, color, color);
-    glColorMaski(1, replicate, replicate, replicate, replicate);
-    glDepthMask(pass == ReferencePass::Depth ? GL_TRUE : GL_FALSE);
-    glDepthFunc(pass == ReferencePass::Surface ? GL_EQUAL : GL_LEQUAL);
+void begin_reference_background() {
+    glColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glEnable(GL_DEPTH_TEST);
 }
 
 void end_reference_slice() {
@@ -134,7 +160,7 @@ void end_reference_slice() {
     glDisable(GL_BLEND);
 }
 
-void write_reference_mean(const ReferenceTarget& target, float weight, const RenderTarget& to) {
+void write_reference_mean(const ReferenceTarget& target, int points, float weight, const RenderTarget& to) {
     const KeepDrawState keep;
     const KeepTextureBindings keep_textures;
     glBindFramebuffer(GL_FRAMEBUFFER, to.radiance_framebuffer.name());
@@ -142,10 +168,9 @@ void write_reference_mean(const ReferenceTarget& target, float weight, const Ren
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glViewport(0, 0, target.size.x, target.size.y);
     glUseProgram(target.mean.name());
-    glActiveTexture(GL_TEXTURE0 + kPictureUnit);
-    glBindSampler(kPictureUnit, 0);
-    glBindTexture(GL_TEXTURE_2D, target.sum.name());
-    glUniform2f(glGetUniformLocation(target.mean.name(), "reference_weight"), 1.0f / weight,
+    bind_to(kPictureUnit, target.sum);
+    bind_to(kFragmentPlacesUnit, target.counts);
+    glUniform3f(glGetUniformLocation(target.mean.name(), "reference_weight"), float(points), weight,
                 largest_radiance(to));
     glBindVertexArray(target.nothing.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -186,8 +211,9 @@ PanoramaTexels read_panorama(const GpuEnvironment& environment) {
     for (std::size_t i = 0; i < stored.size(); ++i) {
         glm::vec3 radiance(stored[i]);
         if (stored[i].a > 0.0f && !environment.panorama_lights.empty()) {
+            const std::size_t row = i / texels.width;
             const glm::vec2 uv((float(i % texels.width) + 0.5f) / float(texels.width),
-                               (float(i / texels.width) + 0.5f) / float(texels.height));
+                               (float(row) + 0.5f) / float(texels.height));
             radiance += stored[i].a * light_color(environment.panorama_lights, equirect_to_direction(uv));
         }
         texels.radiance.push_back(radiance * environment.panorama_scale);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/gl/environment.h"
+#include "renderer/gl/surfaces.h"
 #include "renderer/gl/target.h"
 #include "renderer/ibl/light_sampler.h"
 #include "renderer/shaders/blocks.h"
@@ -19,10 +20,11 @@ struct ReferenceTarget {
     glm::ivec2 size{1};
     gl::Texture sum;         ///< of all replicates, slices by their weights; alpha: coverage likewise
     gl::Texture replicates;  ///< one layer each: likewise, the mean of the three channels, the mesh only
+    gl::Texture counts;      ///< two a pixel: points before the counts were set; 1: it gathers, 0: it rests
     gl::Buffer points;       ///< blocks.h's PointBlock
-    gl::Renderbuffer depth;
+    gl::SurfaceScratch surface;                             ///< what the slice's picture shows
     std::array<gl::Framebuffer, kReplicates> framebuffers;  ///< sum and one replicate
-    gl::Program mean;
+    gl::Program mean, resting;
     gl::VertexArray nothing;
 };
 
@@ -32,20 +34,23 @@ namespace gl {
 ReferenceTarget make_reference_target(glm::ivec2 size);
 /// Everything back to black.
 void clear_reference(ReferenceTarget& target);
+/// Two a pixel, as ReferenceTarget::counts, bottom row first: those that rest are left as they are from now
+/// on.
+void set_reference_counts(ReferenceTarget& target, const std::vector<float>& counts);
 /// The points of the slices that follow.
 void set_reference_points(ReferenceTarget& target, const blocks::PointBlock& points);
 
-/// Between begin and end what is drawn is added to a replicate and to the sum, weight (0…1) times; depth is
-/// clear.
+/// Between begin and end the mesh's material is drawn into target.surface.
+void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps);
+/// Between begin and end what is drawn is added to the sum, weight (0…1) times: the surface, in a replicate
+/// too; then what is behind it, at its depth.
 void begin_reference_slice(const ReferenceTarget& target, int replicate, float weight);
-/// In turn: depth alone; colour where depth is exactly what is there; what is behind, which no replicate has.
-enum class ReferencePass { Depth, Surface, Background };
-void begin_reference_pass(ReferencePass pass);
+void begin_reference_background();
 void end_reference_slice();
 
 /// The mean so far into an ordinary target's radiance (one sample a pixel, the same size).
-/// weight: of all slices together, > 0.
-void write_reference_mean(const ReferenceTarget& target, float weight, const RenderTarget& to);
+/// points: since the counts were set, all together > 0; weight: of one of them.
+void write_reference_mean(const ReferenceTarget& target, int points, float weight, const RenderTarget& to);
 
 /// One layer after the other, each bottom row first.
 std::vector<float> read_replicates(const ReferenceTarget& target);

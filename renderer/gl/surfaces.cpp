@@ -194,7 +194,19 @@ void SurfaceScratch::begin() const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     glViewport(0, 0, size_px_.x, size_px_.y);
     const GLfloat far = 1.0f;
+    const GLfloat nothing[] = {0.0f, 0.0f, 0.0f, 0.0f};
     glClearBufferfv(GL_DEPTH, 0, &far);
+    glClearBufferfv(GL_COLOR, 0, nothing);
+}
+
+void SurfaceScratch::bind_layers() const {
+    bind(kFragmentPlacesUnit, GL_TEXTURE_2D, fragments_);
+    for (std::size_t i = 0; i < layers_.size(); ++i)
+        if (layers_[i]) bind(kFirstStoredUnit + GLuint(i), GL_TEXTURE_2D, layers_[i]);
+}
+
+void SurfaceScratch::share_depth() const {
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.name());
 }
 
 std::vector<float> SurfaceScratch::read_fragments(const SurfacePrograms& programs) const {

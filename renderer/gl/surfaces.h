@@ -50,6 +50,10 @@ public:
     void make(glm::ivec2 size_px, int samples, SurfaceMaps maps);
     /// Empty, bound and ready to be drawn into.
     void begin() const;
+    /// What was drawn, as it lies there, for shaders to read. Precondition: one sample.
+    void bind_layers() const;
+    /// Its depth becomes that of the framebuffer that is bound, which has the same size and samples.
+    void share_depth() const;
     /// Sorts what was drawn.
     GpuSurfaces finish(const SurfacePrograms& programs) const;
 

@@ -136,8 +136,9 @@ private:
             reduce(view_of(environment_), width, std::max(1, width / 2), options_.parallel_for);
         const TexelGrid grid{small.width, small.height};
         std::vector<glm::vec3> towards;
-        for (int i = 0; i < small.width * small.height; ++i)
-            towards.emplace_back(grid.direction(i % small.width + 0.5, i / small.width + 0.5));
+        towards.reserve(small.radiance.size());
+        for (int y = 0; y < small.height; ++y)
+            for (int x = 0; x < small.width; ++x) towards.emplace_back(grid.direction(x + 0.5, y + 0.5));
         const float alpha2 = roughness * roughness * roughness * roughness;
         const auto one = [&](int k) {
             glm::vec3 sum(0.0f);

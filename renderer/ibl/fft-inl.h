@@ -99,7 +99,7 @@ HWY_INLINE void radix_odd(const Pass& pass, int radix, const float* roots) {
     Complex even[FftPlan::kLargestRadix / 2 + 1], odd[FftPlan::kLargestRadix / 2 + 1];
     const float* w = pass.twiddles;
     const int half = radix / 2;
-    for (int p = 0; p < pass.parts; ++p, w += 2 * (radix - 1))
+    for (int p = 0; p < pass.parts; ++p, w += std::ptrdiff_t(2) * (radix - 1))
         for (int q = 0; q < pass.stride; ++q) {
             const Complex first = load(pass.in(p, q, 0));
             Complex sum = first;
@@ -120,8 +120,9 @@ HWY_INLINE void radix_odd(const Pass& pass, int radix, const float* roots) {
                                  hn::MulAdd(even[j].im, c, symmetric.im)};
                     skew = {hn::NegMulAdd(odd[j].im, s, skew.re), hn::MulAdd(odd[j].re, s, skew.im)};
                 }
-                store(times(symmetric + skew, w + 2 * (k - 1)), pass.out(p, q, k, radix));
-                store(times(symmetric - skew, w + 2 * (radix - k - 1)), pass.out(p, q, radix - k, radix));
+                store(times(symmetric + skew, w + std::ptrdiff_t(2) * (k - 1)), pass.out(p, q, k, radix));
+                store(times(symmetric - skew, w + std::ptrdiff_t(2) * (radix - k - 1)),
+                      pass.out(p, q, radix - k, radix));
             }
         }
 }
@@ -147,7 +148,7 @@ HWY_INLINE float* run_passes(const FftView& plan, float* x, float* y) {
                 break;
             default:
                 radix_odd(pass, radix, roots);
-                roots += 2 * radix;
+                roots += std::ptrdiff_t(2) * radix;
         }
         pass.twiddles += std::size_t(2) * (radix - 1) * pass.parts;
         pass.stride *= radix;
@@ -161,15 +162,17 @@ HWY_INLINE float* run_passes(const FftView& plan, float* x, float* y) {
 /// jk = (j² + k² − (k − j)²)/2 turns the transform into a convolution with a chirp (Bluestein 1970). The
 /// inverse transform is the forward one with real and imaginary parts swapped before and after.
 HWY_INLINE float* run_bluestein(const FftView& plan, float* x, float* y) {
-    const std::size_t step = 2 * kLanes;
+    const std::size_t step = std::size_t(2) * kLanes;
     const int n = plan.size, m = plan.convolution->size;
-    for (int i = 0; i < n; ++i) store(times(load(x + step * i), plan.chirp + 2 * i), x + step * i);
+    for (int i = 0; i < n; ++i)
+        store(times(load(x + step * i), plan.chirp + std::ptrdiff_t(2) * i), x + step * i);
     for (int i = n; i < m; ++i) store({hn::Zero(Singles()), hn::Zero(Singles())}, x + step * i);
     float* z = run_passes(*plan.convolution, x, y);
     for (int i = 0; i < m; ++i)
-        store(swapped(times(load(z + step * i), plan.chirp_spectrum + 2 * i)), z + step * i);
+        store(swapped(times(load(z + step * i), plan.chirp_spectrum + std::ptrdiff_t(2) * i)), z + step * i);
     z = run_passes(*plan.convolution, z, z == x ? y : x);
-    for (int i = 0; i < n; ++i) store(times(swapped(load(z + step * i)), plan.chirp + 2 * i), z + step * i);
+    for (int i = 0; i < n; ++i)
+        store(times(swapped(load(z + step * i)), plan.chirp + std::ptrdiff_t(2) * i), z + step * i);
     return z;
 }
 

@@ -23,8 +23,8 @@ void add_legendre_here(const double* x, const double* weight, int count, int ban
     for (int first = 0; first < count; first += kNodesAtOnce) {
         Vector at[vectors], w[vectors], p[vectors], before[vectors];
         for (int v = 0; v < vectors; ++v) {
-            at[v] = hn::LoadU(d, x + first + v * lanes);
-            w[v] = hn::LoadU(d, weight + first + v * lanes);
+            at[v] = hn::LoadU(d, x + first + std::ptrdiff_t(v) * lanes);
+            w[v] = hn::LoadU(d, weight + first + std::ptrdiff_t(v) * lanes);
             p[v] = hn::Set(d, 1.0);
             before[v] = hn::Zero(d);
         }
@@ -34,7 +34,8 @@ void add_legendre_here(const double* x, const double* weight, int count, int ban
             const double b = double(l) / (l + 1.0);
             const auto forth = hn::Set(d, 1.0 + b), back = hn::Set(d, b);
             for (int v = 0; v < vectors; ++v) {
-                hn::StoreU(hn::MulAdd(w[v], p[v], hn::LoadU(d, sum + v * lanes)), d, sum + v * lanes);
+                hn::StoreU(hn::MulAdd(w[v], p[v], hn::LoadU(d, sum + std::ptrdiff_t(v) * lanes)), d,
+                           sum + std::ptrdiff_t(v) * lanes);
                 const auto next = hn::MulSub(hn::Mul(forth, at[v]), p[v], hn::Mul(back, before[v]));
                 before[v] = p[v];
                 p[v] = next;

@@ -212,7 +212,7 @@ void NearField::add_middle(const Place& place, const Lobe& lobe, const Middle& m
         const double top = 2.0 * edge_[y].sine_from(place.half);
         const double bottom = 2.0 * edge_[y + 1].sine_from(place.half);
         for (int k = 0; k <= count; ++k) scratch.x[k] = metric * scratch.edges[k];
-        simd::near_corners(scratch.x.data(), count + 1, top, bottom, lobe.spread, scratch.corners.data());
+        simd::near_corners({scratch.x.data(), count + 1, top, bottom}, lobe.spread, scratch.corners.data());
         for (int k = 0; k < count; ++k) {
             const double x = 0.5 * (scratch.x[k] + scratch.x[k + 1]), middle_y = 0.5 * (top + bottom);
             const double square = x * x + middle_y * middle_y;

@@ -56,15 +56,16 @@ void add_near_row_here(const NearLobe& lobe, const NearRow& row, int begin, int 
     sums[3] += double(hn::GetLane(hn::SumOfLanes(d, kernel)));
 }
 
-void near_corners_here(const double* x, int count, double top, double bottom, double spread, double* out) {
+void near_corners_here(const NearStrip& strip, double spread, double* out) {
+    const double top = strip.top, bottom = strip.bottom;
     const hn::ScalableTag<double> d;
     const auto c2 = hn::Set(d, spread), scale = hn::Set(d, 0.5 / spread), one = hn::Set(d, 1.0);
     const double top_root = std::sqrt(top * top + spread), bottom_root = std::sqrt(bottom * bottom + spread);
     const auto y0 = hn::Set(d, top), y1 = hn::Set(d, bottom);
     const auto top_inverse = hn::Set(d, 1.0 / top_root), bottom_inverse = hn::Set(d, 1.0 / bottom_root);
     const auto top_slope = hn::Set(d, top / top_root), bottom_slope = hn::Set(d, bottom / bottom_root);
-    for (int k = 0; k < count; k += int(hn::Lanes(d))) {
-        const auto v = hn::LoadU(d, x + k);
+    for (int k = 0; k < strip.count; k += int(hn::Lanes(d))) {
+        const auto v = hn::LoadU(d, strip.x + k);
         const auto inverse = hn::Div(one, hn::Sqrt(hn::MulAdd(v, v, c2)));
         const auto straight = hn::Mul(hn::Mul(v, inverse), hn::Sub(hn::Atan(d, hn::Mul(y1, inverse)),
                                                                    hn::Atan(d, hn::Mul(y0, inverse))));
@@ -86,8 +87,8 @@ HWY_EXPORT(near_corners_here);
 void add_near_row(const NearLobe& lobe, const NearRow& row, int begin, int end, double* sums) {
     HWY_DYNAMIC_DISPATCH(add_near_row_here)(lobe, row, begin, end, sums);
 }
-void near_corners(const double* x, int count, double top, double bottom, double spread, double* out) {
-    HWY_DYNAMIC_DISPATCH(near_corners_here)(x, count, top, bottom, spread, out);
+void near_corners(const NearStrip& strip, double spread, double* out) {
+    HWY_DYNAMIC_DISPATCH(near_corners_here)(strip, spread, out);
 }
 
 }  // namespace patina::simd

@@ -31,8 +31,15 @@ struct NearRow {
 /// factor. Columns from end on, up to kNearPadding of them, are read too: their window must be 0.
 void add_near_row(const NearLobe& lobe, const NearRow& row, int begin, int end, double* sums);
 
+/// Columns' edges x between two heights y.
+struct NearStrip {
+    const double* x = nullptr;
+    int count = 0;
+    double top = 0.0, bottom = 0.0;
+};
+
 /// out[k] = ∫ from 0 to x[k] ∫ from top to bottom (x² + y² + spread)⁻² dy dx for k = 0 … count − 1; both
 /// arrays hold kNearPadding more.
-void near_corners(const double* x, int count, double top, double bottom, double spread, double* out);
+void near_corners(const NearStrip& strip, double spread, double* out);
 
 }  // namespace patina::simd

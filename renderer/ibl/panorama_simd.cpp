@@ -26,22 +26,22 @@ void measure_texels_here(const float* texels, int count, TexelRange& range, floa
     hn::Vec<Part> sums[kVectors], lowest[kVectors], highest[kVectors];
     for (int v = 0; v < kVectors; ++v) {
         sums[v] = hn::Zero(d);
-        lowest[v] = hn::LoadU(d, range.lowest + v * kPartLanes);
-        highest[v] = hn::LoadU(d, range.highest + v * kPartLanes);
+        lowest[v] = hn::LoadU(d, range.lowest + std::ptrdiff_t(v) * kPartLanes);
+        highest[v] = hn::LoadU(d, range.highest + std::ptrdiff_t(v) * kPartLanes);
     }
     int i = 0;
     for (; i + kTogether <= 3 * count; i += kTogether)
         for (int v = 0; v < kVectors; ++v) {
-            const auto value = hn::LoadU(d, texels + i + v * kPartLanes);
+            const auto value = hn::LoadU(d, texels + i + std::ptrdiff_t(v) * kPartLanes);
             sums[v] = hn::Add(sums[v], value);
             lowest[v] = hn::Min(lowest[v], value);
             highest[v] = hn::Max(highest[v], value);
         }
     float places[kTogether];
     for (int v = 0; v < kVectors; ++v) {
-        hn::StoreU(sums[v], d, places + v * kPartLanes);
-        hn::StoreU(lowest[v], d, range.lowest + v * kPartLanes);
-        hn::StoreU(highest[v], d, range.highest + v * kPartLanes);
+        hn::StoreU(sums[v], d, places + std::ptrdiff_t(v) * kPartLanes);
+        hn::StoreU(lowest[v], d, range.lowest + std::ptrdiff_t(v) * kPartLanes);
+        hn::StoreU(highest[v], d, range.highest + std::ptrdiff_t(v) * kPartLanes);
     }
     for (int k = 0; i < 3 * count; ++i, ++k) {
         places[k] += texels[i];

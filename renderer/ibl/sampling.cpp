@@ -156,6 +156,7 @@ std::vector<glm::vec3> sample_prefiltered(const CubePyramid& source, float rough
 CubeMap prefilter_by_sampling(const CubePyramid& source, float roughness, int samples, int face_size,
                               const BakeControl& control) {
     std::vector<glm::vec3> directions;
+    directions.reserve(std::size_t(6) * face_size * face_size);
     for (int i = 0; i < 6 * face_size * face_size; ++i)
         directions.push_back(cube_texel_direction(face_size, i / (face_size * face_size), i % face_size,
                                                   i / face_size % face_size));

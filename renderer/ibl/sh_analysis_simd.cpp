@@ -68,10 +68,11 @@ HWY_INLINE void split_channel(const AnalysisBlock& block, const float* z, int ch
     const auto largest = hn::Set(d, block.largest_widening), one = hn::Set(d, 1.0f);
     for (int m = 0; m < block.orders; ++m) {
         float* even = block.spectrum + m * block.order_stride + std::size_t(2 * channel) * kLanes;
-        float* odd = even + 6 * kLanes;
+        float* odd = even + std::ptrdiff_t(6) * kLanes;
         if (m >= block.useful_orders) {
             for (int i = 0; i < 2; ++i)
-                hn::Store(hn::Zero(d), d, even + i * kLanes), hn::Store(hn::Zero(d), d, odd + i * kLanes);
+                hn::Store(hn::Zero(d), d, even + std::ptrdiff_t(i) * kLanes),
+                    hn::Store(hn::Zero(d), d, odd + std::ptrdiff_t(i) * kLanes);
             continue;
         }
         const Complex p = load(z + std::size_t(2 * kLanes) * m);
@@ -83,8 +84,8 @@ HWY_INLINE void split_channel(const AnalysisBlock& block, const float* z, int ch
         auto e = hn::MulAdd(y, hn::Set(d, 1.0f / 24.0f), hn::Set(d, 1.0f / 6.0f));
         e = hn::MulAdd(hn::MulAdd(hn::MulAdd(e, y, hn::Set(d, 0.5f)), y, one), y, one);
         const auto w = hn::Mul(weight, e);
-        const Complex a = times(north + south, block.phase + 2 * m),
-                      b = times(north - south, block.phase + 2 * m);
+        const Complex a = times(north + south, block.phase + std::ptrdiff_t(2) * m),
+                      b = times(north - south, block.phase + std::ptrdiff_t(2) * m);
         store({hn::Mul(a.re, w), hn::Mul(a.im, w)}, even);
         store({hn::Mul(b.re, w), hn::Mul(b.im, w)}, odd);
     }
@@ -117,10 +118,11 @@ void analyse_rings_here(const AnalysisBlock& block) {
 HWY_INLINE void accumulate(const Single* p, const float* spectrum, float* sums) {
     const Singles d;
     for (int part = 0; part < kCoefficients; ++part) {
-        auto sum = hn::MulAdd(p[0], hn::Load(d, spectrum + part * kLanes), hn::Load(d, sums + part * kLanes));
+        auto sum = hn::MulAdd(p[0], hn::Load(d, spectrum + std::ptrdiff_t(part) * kLanes),
+                              hn::Load(d, sums + std::ptrdiff_t(part) * kLanes));
         for (int v = 1; v < kGroupVectors; ++v)
             sum = hn::MulAdd(p[v], hn::Load(d, spectrum + (std::size_t(kParts) * v + part) * kLanes), sum);
-        hn::Store(sum, d, sums + part * kLanes);
+        hn::Store(sum, d, sums + std::ptrdiff_t(part) * kLanes);
     }
 }
 
@@ -128,19 +130,20 @@ HWY_INLINE void accumulate(const Single* p, const float* spectrum, float* sums) 
 HWY_INLINE void accumulate_group(const Column& column, Start<kGroupRings>& start, const float* spectrum,
                                  float* sums) {
     const Singles d;
-    constexpr int kOdd = 6 * kLanes, kDegree = kCoefficients * kLanes;
+    constexpr std::ptrdiff_t to_odd = std::ptrdiff_t(6) * kLanes,
+                             degree = std::ptrdiff_t(kCoefficients) * kLanes;
     Single low[kGroupVectors], high[kGroupVectors], x[kGroupVectors];
     const auto fetch = [&]() HWY_ATTR {
         to_single(start);
         for (int v = 0; v < kGroupVectors; ++v) {
-            low[v] = hn::Load(d, start.low_single + v * kLanes);
-            high[v] = hn::Load(d, start.high_single + v * kLanes);
+            low[v] = hn::Load(d, start.low_single + std::ptrdiff_t(v) * kLanes);
+            high[v] = hn::Load(d, start.high_single + std::ptrdiff_t(v) * kLanes);
         }
     };
     for (; start.l <= column.band && !is_safe(start); advance(column, start)) {
         fetch();
         const int k = start.l - column.m;
-        accumulate(low, spectrum + (k & 1 ? kOdd : 0), sums + std::size_t(k) * kDegree);
+        accumulate(low, spectrum + (k & 1 ? to_odd : 0), sums + std::size_t(k) * degree);
     }
     fetch();
     for (int v = 0; v < kGroupVectors; ++v) {
@@ -149,13 +152,13 @@ HWY_INLINE void accumulate_group(const Column& column, Start<kGroupRings>& start
         x[v] = hn::Load(d, cosine);
     }
     const int k = start.l - column.m;
-    const float* first = spectrum + (k & 1 ? kOdd : 0);
-    const float* second = spectrum + (k & 1 ? 0 : kOdd);
+    const float* first = spectrum + (k & 1 ? to_odd : 0);
+    const float* second = spectrum + (k & 1 ? 0 : to_odd);
     const float* factor = column.factor_single + k;
-    float* to = sums + std::size_t(k) * kDegree;
-    for (int l = start.l; l <= column.band; l += 2, factor += 2, to += 2 * kDegree) {
+    float* to = sums + std::size_t(k) * degree;
+    for (int l = start.l; l <= column.band; l += 2, factor += 2, to += 2 * degree) {
         accumulate(low, first, to);
-        accumulate(high, second, to + kDegree);
+        accumulate(high, second, to + degree);
         const auto f2 = hn::Set(d, factor[2]), f3 = hn::Set(d, factor[3]);
         for (int v = 0; v < kGroupVectors; ++v) {
             low[v] = hn::MulSub(hn::Mul(x[v], f2), high[v], low[v]);

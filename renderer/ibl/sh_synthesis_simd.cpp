@@ -55,15 +55,15 @@ HWY_INLINE void sum_degrees(const SynthesisOrder& order, Start<kLanes>& start, f
     }
     const float* coefficients = order.coefficients + std::size_t(kCoefficients) * k;
     const float* factor = column.factor_single + k;
-    for (; k <= last; k += 2, factor += 2, coefficients += 2 * kCoefficients) {
+    for (; k <= last; k += 2, factor += 2, coefficients += std::ptrdiff_t(2) * kCoefficients) {
         add_degree(low, coefficients, first);
         add_degree(high, coefficients + kCoefficients, second);
         low = hn::MulSub(hn::Mul(x, hn::Set(d, factor[2])), high, low);
         high = hn::MulSub(hn::Mul(x, hn::Set(d, factor[3])), low, high);
     }
     for (int part = 0; part < kCoefficients; ++part) {
-        hn::Store(first[part], d, to + part * kLanes);
-        hn::Store(second[part], d, to + (kCoefficients + part) * kLanes);
+        hn::Store(first[part], d, to + std::ptrdiff_t(part) * kLanes);
+        hn::Store(second[part], d, to + std::ptrdiff_t(kCoefficients + part) * kLanes);
     }
 }
 
@@ -75,7 +75,8 @@ void synthesise_order_here(const SynthesisOrder& order) {
         if (climb(order.column, order.rings.cosine + ring, order.rings.sine + ring, start))
             sum_degrees(order, start, to);
         else
-            for (int part = 0; part < kParts; ++part) hn::Store(hn::Zero(d), d, to + part * kLanes);
+            for (int part = 0; part < kParts; ++part)
+                hn::Store(hn::Zero(d), d, to + std::ptrdiff_t(part) * kLanes);
     }
 }
 
@@ -83,10 +84,10 @@ void synthesise_order_here(const SynthesisOrder& order) {
 /// and imaginary parts swapped, which makes the forward passes an inverse.
 HWY_INLINE void join_channel(const SynthesisBlock& block, int channel, float* z) {
     const int columns = block.fft->size;
-    const std::size_t step = 2 * kLanes;
+    const std::size_t step = std::size_t(2) * kLanes;
     const float* from = block.spectrum + std::size_t(2 * channel) * kLanes;
     for (int m = 0; m < block.orders; ++m, from += std::size_t(kParts) * kLanes) {
-        const Complex even = load(from), odd = load(from + 6 * kLanes);
+        const Complex even = load(from), odd = load(from + std::ptrdiff_t(6) * kLanes);
         const Complex north = even + odd, south = even - odd;
         if (m == 0) {
             store({south.re, north.re}, z);
@@ -134,7 +135,7 @@ void synthesise_rings_here(const SynthesisBlock& block) {
     const std::size_t plane = std::size_t(2 * kLanes) * block.fft->size;
     const float* results[3];
     for (int channel = 0; channel < 3; ++channel) {
-        float* z = block.work + 2 * channel * plane;
+        float* z = block.work + std::size_t(2) * channel * plane;
         join_channel(block, channel, z);
         results[channel] = run_fft(*block.fft, z, z + plane);
     }
@@ -194,7 +195,7 @@ HWY_INLINE void set_weights(float tx, float ty, Weights& w) {
     lagrange_weights(ty, w.y);
     const Texels d;
     for (int k = 0; k < kPoints / kTexels; ++k) {
-        w.x[k] = hn::Set(d, x[k * kTexels]);
+        w.x[k] = hn::Set(d, x[std::ptrdiff_t(k) * kTexels]);
         if (kTexels == 2) w.x[k] = hn::ConcatUpperLower(d, hn::Set(d, x[k * kTexels + 1]), w.x[k]);
     }
 }
@@ -206,7 +207,7 @@ HWY_INLINE void interpolate_one(const LagrangeSource& source, const float* corne
     for (int j = 0; j < kPoints; ++j, corner += source.row_floats) {
         auto row = hn::Mul(hn::LoadU(d, corner), w.x[0]);
         for (int i = 1; i < kPoints / kTexels; ++i)
-            row = hn::MulAdd(hn::LoadU(d, corner + 4 * kTexels * i), w.x[i], row);
+            row = hn::MulAdd(hn::LoadU(d, corner + std::ptrdiff_t(4) * kTexels * i), w.x[i], row);
         sum = hn::MulAdd(row, hn::Set(d, w.y[j]), sum);
     }
     HWY_ALIGN float both[8] = {};
@@ -230,7 +231,8 @@ void interpolate_row_here(const LagrangeSource& source, const LagrangeRow& row) 
         int column = int(x0) % source.columns;
         if (column < 0) column += source.columns;
         for (int turn = 0; turn < row.turns; ++turn) {
-            interpolate_one(source, line + 4 * (column - 2), weights, row.out[turn] + 3 * i);
+            interpolate_one(source, line + std::ptrdiff_t(4) * (column - 2), weights,
+                            row.out[turn] + std::ptrdiff_t(3) * i);
             column += source.columns / 4;
             if (column >= source.columns) column -= source.columns;
         }

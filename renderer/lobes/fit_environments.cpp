@@ -95,7 +95,7 @@ std::vector<Box> make_boxes(int kind, Random& random) {
 float texture(vec3 d, const float* phase) {
     float sum = 0.0f, amplitude = 0.5f, frequency = 2.0f;
     for (int o = 0; o < 7; ++o, amplitude *= 0.62f, frequency *= 2.1f)
-        sum += amplitude * std::sin(frequency * (1.3f * d.x + 0.7f * d.y) + phase[3 * o]) *
+        sum += amplitude * std::sin(frequency * (1.3f * d.x + 0.7f * d.y) + phase[std::ptrdiff_t(3) * o]) *
                std::sin(frequency * (1.1f * d.y - 0.6f * d.z) + phase[3 * o + 1]) *
                std::sin(frequency * (1.2f * d.z + 0.5f * d.x) + phase[3 * o + 2]);
     return sum;

@@ -74,15 +74,20 @@ LightSums sum_lights(const FitLight& light, const Pixel& pixel, double alpha) {
     return sums;
 }
 
-struct Sums {
-    std::array<Lanes, kMethods> square{};
+/// Squared relative errors of each reflectance, method and environment.
+using Sums = std::array<std::array<Lanes, kMethods>, std::size(kReflectances)>;
+
+struct Judged {
+    const FitLight& light;
+    std::span<const LobePair> nodes;
+    int truth_samples;
 };
 
-/// Adds one pixel's squared relative errors for each reflectance.
-void add_pixel(const FitLight& light, std::span<const LobePair> nodes, const Pixel& pixel, float roughness,
-               int truth_samples, std::array<Sums, 2>& sums) {
+/// Adds one pixel's.
+void add_pixel(const Judged& judged, const Pixel& pixel, float roughness, Sums& sums) {
+    const FitLight& light = judged.light;
     const double alpha = double(roughness) * roughness;
-    const Lobe lobe = sample_lobe(pixel.NoV, alpha, truth_samples);
+    const Lobe lobe = sample_lobe(pixel.NoV, alpha, judged.truth_samples);
     const LobeSums truth = sum_lobe(lobe, light, pixel.frame);
     const LightSums lights = sum_lights(light, pixel, alpha);
     const glm::vec2 ab(lobe.Ess - lobe.B, lobe.B);
@@ -94,11 +99,11 @@ void add_pixel(const FitLight& light, std::span<const LobePair> nodes, const Pix
         const float f0 = kReflectances[z];
         const brdf::ReflectionWeights w =
             brdf::split_sum_weights(glm::vec3(z ? 0.8f : 1.0f), z ? 0.0f : 1.0f, ab);
-        const LobeNode node = lobe_at(nodes, pixel.NoV, roughness, brdf::fresnel_share(f0, ab));
+        const LobeNode node = lobe_at(judged.nodes, pixel.NoV, roughness, brdf::fresnel_share(f0, ab));
         std::array<Lanes, kMethods> P{};
         light.add_prefiltered(P[0], R, std::log2(roughness), 1.0f);
-        P[1] = lobe_radiance(light, node, false, R, N, roughness);
-        P[2] = lobe_radiance(light, node, true, R, N, roughness);
+        P[1] = lobe_radiance(light, node, false, {R, N, roughness});
+        P[2] = lobe_radiance(light, node, true, {R, N, roughness});
         for (int e = 0; e < light.count; ++e) {
             const double rest = (w.multiple.x + w.diffuse.x) * (irradiance[e] + lights.irradiance[e]);
             const auto specular = [&](const LobeSums& x) {
@@ -108,9 +113,20 @@ void add_pixel(const FitLight& light, std::span<const LobePair> nodes, const Pix
             for (int m = 0; m < kMethods; ++m) {
                 const double x = w.single.x * P[m][e] + specular(lights.shaded) + rest;
                 const double error = (x - t) / std::max(t, kDarkest);
-                sums[z].square[m][e] += float(error * error);
+                sums[z][m][e] += float(error * error);
             }
         }
+    }
+}
+
+void add_means(const std::array<Lanes, kMethods>& squares, int environments, double pixels, Judgement& row) {
+    for (int m = 0; m < kMethods; ++m) {
+        for (int e = 0; e < environments; ++e) {
+            const double mean = squares[m][e] / pixels;
+            row.rms_of[m][e] = std::sqrt(mean);
+            row.rms[m] += mean / environments;
+        }
+        row.rms[m] = std::sqrt(row.rms[m]);
     }
 }
 
@@ -121,19 +137,12 @@ std::vector<Judgement> judge(const FitLight& light, std::span<const LobePair> no
     const std::vector<Pixel> pixels = sphere_pixels(settings.pixels);
     std::vector<Judgement> result;
     for (const float roughness : settings.roughness) {
-        std::array<Sums, 2> sums{};
+        Sums sums{};
         for (const Pixel& pixel : pixels)
-            add_pixel(light, nodes, pixel, roughness, settings.truth_samples, sums);
-        for (int z = 0; z < 2; ++z) {
+            add_pixel({light, nodes, settings.truth_samples}, pixel, roughness, sums);
+        for (std::size_t z = 0; z < sums.size(); ++z) {
             Judgement row{roughness, kReflectances[z], {}, {}};
-            for (int m = 0; m < kMethods; ++m) {
-                for (int e = 0; e < light.count; ++e) {
-                    const double mean = sums[z].square[m][e] / double(pixels.size());
-                    row.rms_of[m][e] = std::sqrt(mean);
-                    row.rms[m] += mean / light.count;
-                }
-                row.rms[m] = std::sqrt(row.rms[m]);
-            }
+            add_means(sums[z], light.count, double(pixels.size()), row);
             result.push_back(row);
         }
     }

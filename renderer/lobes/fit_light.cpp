@@ -27,23 +27,22 @@ void put(LaneCube& cube, const CubeMap& source, int lane, float scale) {
 
 LaneCube halved(const LaneCube& source) {
     LaneCube result(source.size / 2);
-    for (int face = 0; face < 6; ++face) {
-        for (int y = 0; y < result.size; ++y) {
-            for (int x = 0; x < result.size; ++x) {
-                double area = 0.0;
-                Lanes sum{};
-                for (int k = 0; k < 4; ++k) {
-                    const int sx = 2 * x + k % 2, sy = 2 * y + k / 2;
-                    const double own = cube_texel_solid_angle(source.size, sx, sy);
-                    add_scaled(sum, source.texels[source.at(face, sx, sy)], float(own));
-                    area += own;
-                }
-                Lanes& texel = result.texels[result.at(face, x, y)];
-                texel = {};
-                add_scaled(texel, sum, float(1.0 / area));
-            }
+    const auto mean_of_four = [&](int face, int x, int y) {
+        double area = 0.0;
+        Lanes sum{}, mean{};
+        for (int k = 0; k < 4; ++k) {
+            const int sx = 2 * x + k % 2, sy = 2 * y + k / 2;
+            const double own = cube_texel_solid_angle(source.size, sx, sy);
+            add_scaled(sum, source.texels[source.at(face, sx, sy)], float(own));
+            area += own;
         }
-    }
+        add_scaled(mean, sum, float(1.0 / area));
+        return mean;
+    };
+    for (int face = 0; face < 6; ++face)
+        for (int y = 0; y < result.size; ++y)
+            for (int x = 0; x < result.size; ++x)
+                result.texels[result.at(face, x, y)] = mean_of_four(face, x, y);
     result.fill_border();
     return result;
 }
@@ -56,10 +55,12 @@ std::vector<LightSample> samples_of(const Environment& environment, const LightE
     for (const auto& texels : extraction.texels) {
         for (const LightTexel& texel : texels) {
             const double area = grid.area(texel.y) / (kSplit * kSplit);
-            for (int k = 0; k < kSplit * kSplit; ++k)
-                samples.push_back({glm::vec3(grid.direction(texel.x + (k % kSplit + 0.5) / kSplit,
-                                                            texel.y + (k / kSplit + 0.5) / kSplit)),
-                                   float(scale * brdf::luminance(texel.excess) * area)});
+            const auto irradiance = float(scale * brdf::luminance(texel.excess) * area);
+            for (int y = 0; y < kSplit; ++y)
+                for (int x = 0; x < kSplit; ++x)
+                    samples.push_back({glm::vec3(grid.direction(texel.x + (x + 0.5) / kSplit,
+                                                                texel.y + (y + 0.5) / kSplit)),
+                                       irradiance});
         }
     }
     return samples;
@@ -113,25 +114,19 @@ void LaneCube::fill_border() {
         };
         return texels[at(p.face, index(p.s), index(p.t))];
     };
-    for (int face = 0; face < 6; ++face) {
-        for (int k = -1; k <= size; ++k) {
-            for (int edge = 0; edge < 4; ++edge) {
-                const int x = edge == 0 ? -1 : edge == 1 ? size : k;
-                const int y = edge == 2 ? -1 : edge == 3 ? size : k;
-                const bool corner = (x < 0 || x >= size) && (y < 0 || y >= size);
-                if (!corner) {
-                    texels[at(face, x, y)] = across(face, x, y);
-                    continue;
-                }
-                const int cx = std::clamp(x, 0, size - 1), cy = std::clamp(y, 0, size - 1);
-                Lanes sum{};
-                add_scaled(sum, texels[at(face, cx, cy)], 1.0f / 3.0f);
-                add_scaled(sum, across(face, x, cy), 1.0f / 3.0f);
-                add_scaled(sum, across(face, cx, y), 1.0f / 3.0f);
-                texels[at(face, x, y)] = sum;
-            }
-        }
-    }
+    const auto outside = [&](int face, int x, int y) {
+        const int inner_x = std::clamp(x, 0, size - 1), inner_y = std::clamp(y, 0, size - 1);
+        if (x == inner_x || y == inner_y) return across(face, x, y);
+        Lanes corner{};
+        for (const Lanes& near :
+             {texels[at(face, inner_x, inner_y)], across(face, x, inner_y), across(face, inner_x, y)})
+            add_scaled(corner, near, 1.0f / 3.0f);
+        return corner;
+    };
+    for (int face = 0; face < 6; ++face)
+        for (int k = -1; k <= size; ++k)
+            for (const glm::ivec2 texel : {glm::ivec2(-1, k), {size, k}, {k, -1}, {k, size}})
+                texels[at(face, texel.x, texel.y)] = outside(face, texel.x, texel.y);
 }
 
 void LaneCube::add_to(Lanes& sum, glm::vec3 direction, float weight) const {

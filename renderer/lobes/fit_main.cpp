@@ -29,6 +29,7 @@ Environment built_in(std::string_view id) {
 
 std::vector<Environment> fit_set() {
     std::vector<Environment> set;
+    set.reserve(kFitEnvironments + 3);
     for (int kind = 0; kind < kFitEnvironments; ++kind) set.push_back(make_fit_environment(kind, 1024));
     for (const char* id : {"studio", "night", "overcast"}) set.push_back(built_in(id));
     return set;
@@ -58,6 +59,7 @@ void write_table(const std::vector<LobePair>& nodes) {
 
 void judge_files(int count, char** files) {
     std::vector<Environment> set;
+    set.reserve(kFitEnvironments + 3);
     for (const char* id : {"sky", "sunset", "test"}) set.push_back(built_in(id));
     for (int i = 0; i < count && int(set.size()) < kLanes; ++i)
         set.push_back(load_environment_file(files[i]));

@@ -101,17 +101,17 @@ private:
 
     /// A first guess: Frostbite's dominant direction, a little sharper than the surface.
     void start() {
-        nodes_.assign(kN * kN, Step{});
-        damping_.assign(kN * kN, 1e-3);
+        nodes_.assign(std::size_t(kN) * kN, Step{});
+        damping_.assign(std::size_t(kN) * kN, 1e-3);
         for (int c = 0; c < kN * kN; ++c) {
             const double r = node_roughness(c / kN), alpha = r * r;
             const double smooth = 1.0 - alpha, turned = 1.0 - smooth * (std::sqrt(smooth) + alpha);
             const double spread = std::min(0.5, alpha + 0.02);
             for (int half = 0; half < 2; ++half) {
-                double* p = &nodes_[c][half * per_];
+                double* p = &nodes_[c][std::size_t(half) * per_];
                 for (int t = 0; t < taps_; ++t) {
                     const double aside = taps_ == 1 ? 0.0 : t ? 1.2 * spread : -0.4 * spread;
-                    p[2 * t] = std::clamp((0.8 * turned + aside) / alpha, -2.0, 3.0);
+                    p[std::ptrdiff_t(2) * t] = std::clamp((0.8 * turned + aside) / alpha, -2.0, 3.0);
                     p[2 * t + 1] = taps_ == 1 ? -0.05 : t ? 0.0 : -0.2;
                 }
                 if (taps_ == 2) p[4] = 0.5;
@@ -134,7 +134,7 @@ private:
                 const Frame& frame = frames_[f];
                 const glm::vec3 R = frame.to_world({-s, 0.0f, float(target.NoV)});
                 const Lanes seen =
-                    lobe_radiance(light_, node, taps_ == 2, R, frame.N, float(target.roughness));
+                    lobe_radiance(light_, node, taps_ == 2, {R, frame.N, float(target.roughness)});
                 const Lanes& truth = target.radiance[std::size_t(z) * frames + f];
                 float* to = &out[(std::size_t(z) * frames + f) * kLanes];
                 for (int e = 0; e < kLanes; ++e)
@@ -171,9 +171,10 @@ private:
     void bound(double roughness, Step& p) const {
         const double widest = 1.0 / (roughness * roughness);
         for (int half = 0; half < 2; ++half) {
-            double* q = &p[half * per_];
+            double* q = &p[std::size_t(half) * per_];
             for (int t = 0; t < taps_; ++t) {
-                q[2 * t] = std::clamp(q[2 * t], -std::min(3.0, widest), std::min(4.0, widest));
+                double& turn = q[std::ptrdiff_t(2) * t];
+                turn = std::clamp(turn, -std::min(3.0, widest), std::min(4.0, widest));
                 const double least = std::log(brdf::kSharpestFitted / roughness) - 0.1;
                 q[2 * t + 1] = std::clamp(q[2 * t + 1], std::max(-1.6, least),
                                           std::min(1.0, 0.02 - std::log(roughness)));
@@ -274,21 +275,20 @@ private:
 
 }  // namespace
 
-Lanes lobe_radiance(const FitLight& light, const LobeNode& node, bool two, glm::vec3 R, glm::vec3 N,
-                    float roughness) {
-    const float alpha = roughness * roughness, log2_roughness = std::log2(roughness);
+Lanes lobe_radiance(const FitLight& light, const LobeNode& node, bool two, const LobeView& view) {
+    const float alpha = view.roughness * view.roughness, log2_roughness = std::log2(view.roughness);
     Lanes sum{};
     const auto add = [&](const LobeTap& tap, float weight) {
-        light.add_prefiltered(sum, brdf::tap_direction(R, N, tap.kappa, alpha),
+        light.add_prefiltered(sum, brdf::tap_direction(view.R, view.N, tap.kappa, alpha),
                               log2_roughness + tap.log2_ratio, weight);
     };
     if (two) {
         add(node.two[0], 1.0f - node.second_weight - node.two_irradiance);
         add(node.two[1], node.second_weight);
-        light.irradiance[0].add_to(sum, N, node.two_irradiance);
+        light.irradiance[0].add_to(sum, view.N, node.two_irradiance);
     } else {
         add(node.one, 1.0f - node.one_irradiance);
-        light.irradiance[0].add_to(sum, N, node.one_irradiance);
+        light.irradiance[0].add_to(sum, view.N, node.one_irradiance);
     }
     return sum;
 }
@@ -300,8 +300,8 @@ std::vector<LobePair> fit_lobes(const FitLight& light, const FitSettings& settin
     for (std::size_t c = 0; c < one.size(); ++c) {
         LobePair pair;
         for (int half = 0; half < 2; ++half) {
-            LobeNode node = to_node(&two[c][half * 6], 2);
-            const LobeNode single = to_node(&one[c][half * 3], 1);
+            LobeNode node = to_node(&two[c][std::size_t(half) * 6], 2);
+            const LobeNode single = to_node(&one[c][std::size_t(half) * 3], 1);
             node.one = single.one;
             node.one_irradiance = single.one_irradiance;
             pair.by_reflectance[half] = node;

@@ -22,8 +22,13 @@ struct FitSettings {
 /// alternating sweeps.
 std::vector<LobePair> fit_lobes(const FitLight& light, const FitSettings& settings);
 
+/// What lobes are bent from: the mirrored viewer and the normal, both units, and the surface's roughness.
+struct LobeView {
+    glm::vec3 R, N;
+    float roughness;
+};
+
 /// P of one point by a node's lobes; two: both taps instead of one.
-Lanes lobe_radiance(const FitLight& light, const LobeNode& node, bool two, glm::vec3 R, glm::vec3 N,
-                    float roughness);
+Lanes lobe_radiance(const FitLight& light, const LobeNode& node, bool two, const LobeView& view);
 
 }  // namespace patina::lobes

@@ -151,12 +151,12 @@ Colors normals_of(const Plane& height, bool tileable) {
 
 Plane visibility_of(const Plane& height, const MapSettings& settings) {
     const float radius = std::max(1.0f, settings.ao_radius * float(height.width));
-    std::array<std::pair<glm::ivec2, float>, std::size_t(kDirections * kSteps)> offsets;
+    std::array<std::pair<glm::ivec2, float>, std::size_t(kDirections) * kSteps> offsets;
     for (int d = 0; d < kDirections; ++d)
         for (int k = 0; k < kSteps; ++k) {
             const float angle = kTwoPi * float(d) / float(kDirections), far = float(step_px(k, radius));
             const glm::ivec2 offset(std::lround(far * std::cos(angle)), std::lround(far * std::sin(angle)));
-            offsets[std::size_t(d * kSteps + k)] = {
+            offsets[std::size_t(d) * kSteps + k] = {
                 offset, settings.ao_strength * float(height.width) / glm::length(glm::vec2(offset))};
         }
     const auto place = [&](int i, int size) {
@@ -171,7 +171,7 @@ Plane visibility_of(const Plane& height, const MapSettings& settings) {
             for (int d = 0; d < kDirections; ++d) {
                 float horizon = 0.0f;  // the tangent of its elevation
                 for (int k = 0; k < kSteps; ++k) {
-                    const auto& [offset, per_height] = offsets[std::size_t(d * kSteps + k)];
+                    const auto& [offset, per_height] = offsets[std::size_t(d) * kSteps + k];
                     const float there =
                         height.at(place(x + offset.x, height.width), place(y + offset.y, height.height));
                     horizon = std::max(horizon, (there - here) * per_height);

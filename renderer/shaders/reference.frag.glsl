@@ -10,9 +10,10 @@
 #include "brdf.glsl"
 #include "light.glsl"
 #include "material.glsl"
-#include "surface.glsl"
+#include "stored.glsl"
 
 uniform sampler2D brdf_table;         // A and B over (√NoV, roughness)
+uniform sampler2D stored_fragments;   // of which triangle; 0: nothing
 uniform vec2 reference_slice;         // how many points; 1/∫ mean radiance dω, exposed
 
 layout(location = 0) out vec4 picture_color;
@@ -37,7 +38,7 @@ Sampled make_sampled(Surface s, vec3 V) {
     p.V = V;
     p.alpha = max(square(s.roughness), 1e-4);
     p.F0 = base_reflectance(s.albedo, s.metallic);
-    vec2 ab = texture(brdf_table, albedo_coordinates(V.z, s.roughness)).rg;
+    vec2 ab = textureLod(brdf_table, albedo_coordinates(V.z, s.roughness), 0.0).rg;
     ReflectionWeights w = split_sum_weights(s.albedo, s.metallic, ab);
     p.body = w.multiple + w.diffuse;
     float single = mean_channel(w.single);
@@ -105,20 +106,27 @@ vec3 estimate(Sampled p, mat3 frame, int i) {
     return sum + weighed(p, L, mean_channel(radiance) * reference_slice.y, radiance, false);
 }
 
-void main() {
-    vec2 st = vec2(map_uv.x, 1.0 - map_uv.y);   // maps are stored top row first
-    vec3 V = normalize(camera_position.xyz - world_position);
-    Surface s = surface_of(read_maps(st));
+vec3 reflected() {
+    Geometry g = stored_geometry();
+    Surface s = surface_of(stored_maps());
     s.roughness = widened_roughness(s.roughness, s.spread);
-    vec3 N = shading_normal(V, st);
-    mat3 frame = frame_around(environment_direction(N));
-    vec3 local = environment_direction(V) * frame;
+    mat3 frame = frame_around(environment_direction(g.N));
+    vec3 local = environment_direction(g.V) * frame;
     local.z = max(local.z, 1e-4);
     Sampled p = make_sampled(s, normalize(local));
     vec3 sum = vec3(0.0);
     int count = int(reference_slice.x);
     for (int i = 0; i < count; ++i) sum += estimate(p, frame, i);
-    vec3 color = min(at_least(sum * (s.ao / float(count)) + s.emission, 0.0), vec3(ray_right.w));
+    return min(at_least(sum * (s.ao / float(count)) + s.emission, 0.0), vec3(ray_right.w));
+}
+
+// Software renderers execute both sides of an `if`, and go through a loop as often as any of the pixels they shade together:
+// one of no turns spares them the work beside the mesh and where pixels rest.
+void main() {
+    bool is_surface = texelFetch(stored_fragments, ivec2(gl_FragCoord.xy), 0).r > 0.0;
+    vec3 color = vec3(0.0);
+    for (int once = is_surface ? 1 : 0; once > 0; --once) color = reflected();
+    if (!is_surface) discard;
     picture_color = vec4(color, 1.0);
     replicate_value = mean_channel(color);
 }

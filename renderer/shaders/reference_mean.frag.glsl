@@ -1,10 +1,14 @@
 // The mean of all that was gathered.
 uniform sampler2D picture;
-uniform vec2 reference_weight;   // 1/what the slices weighed together; the largest number the target holds
+uniform sampler2D reference_counts;   // points a pixel had before; whether it gathers
+uniform vec3 reference_weight;        // points since; what one weighs; the largest number the target holds
 
 out vec4 picture_color;
 
 void main() {
-    vec4 mean = texelFetch(picture, ivec2(gl_FragCoord.xy), 0) * reference_weight.x;
-    picture_color = vec4(min(mean.rgb, vec3(reference_weight.y)), mean.a);
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    vec2 counts = texelFetch(reference_counts, at, 0).rg;
+    float points = counts.x + counts.y * reference_weight.x;
+    vec4 mean = texelFetch(picture, at, 0) / max(points * reference_weight.y, 1e-30);
+    picture_color = vec4(min(mean.rgb, vec3(reference_weight.z)), mean.a);
 }

@@ -109,6 +109,25 @@ TEST(Render, the_same_command_twice_gives_the_same_bytes) {
     }
 }
 
+TEST(Render, the_reference_stops_where_it_is_known_and_says_so) {
+    const Workspace work;
+    const std::vector<std::string> words{
+        "render",  "-",         "-o",        "a.exr", "--size",        "24x24",   "--env",
+        "furnace", "--shading", "reference", "--set", "roughness=0.8", "--error", "5%"};
+    const Outcome outcome = work.run(words);
+    EXPECT_EQ(outcome.exit_status, 0);
+    EXPECT_NE(outcome.errors.find("on average"), std::string::npos) << outcome.errors;
+    EXPECT_EQ(outcome.errors.find("asked for"), std::string::npos) << outcome.errors;
+    const std::string first = work.read("a.exr");
+    EXPECT_EQ(work.run(words).errors, outcome.errors);
+    EXPECT_EQ(work.read("a.exr"), first);
+
+    std::vector<std::string> strict = words;
+    strict.back() = "0.001%";
+    strict.insert(strict.end(), {"--samples", "64"});
+    EXPECT_NE(work.run(strict).errors.find("not the 0.001 % asked for"), std::string::npos);
+}
+
 TEST(Render, a_set_value_reaches_the_picture) {
     const Workspace work;
     ASSERT_EQ(work.run({"render", "-", "-o", "a.png", "--size", "64x64", "--debug-view", "albedo",

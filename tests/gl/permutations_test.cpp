@@ -33,14 +33,18 @@ std::set<Features> feature_sets(const std::string& fragment) {
 TEST_P(SlowShaders, every_permutation_compiles) {
     renderer();
     const auto& [name, part] = GetParam();
-    const gl::ShaderText vertex = gl::embedded_shader("mesh.vert.glsl");
     const gl::ShaderText fragment = gl::embedded_shader(name);
+    const bool is_reference =
+        fragment.name == "reference.frag.glsl";  // which reads what was rasterised before
+    const gl::ShaderText vertex = gl::embedded_shader(is_reference ? "display.vert.glsl" : "mesh.vert.glsl");
     int compiled = 0, index = 0;
     for (const Features features : feature_sets(name)) {
         if (index++ % kParts != part) continue;
         std::vector<std::string> defines = defines_of(features);
         if (fragment.name == "rivals.frag.glsl")
             defines.push_back("RIVAL_SAMPLES=" + std::to_string(compiled % 2 * 16));
+        if (is_reference && (features & ~Features(Feature::Emission)) != 0)
+            defines.emplace_back("HAS_STORED_MAPS");
         ASSERT_NO_THROW(gl::make_program(vertex, fragment, defines)) << features;
         ++compiled;
     }

@@ -98,7 +98,7 @@ TEST(Editor, draws_nothing_while_nothing_changes) {
     EXPECT_DRIVEN(drive(home, R"(
 wait idle
 mark
-wait 3 seconds
+wait 60 turns                    # of the event loop, which looks at files now and then
 expect frames=0
 expect views=0
 hover material.metallic.bar      # a hover draws the interface, not the picture
@@ -109,9 +109,48 @@ drag viewport 40 0
 wait idle
 expect views>0
 mark
-wait 1 seconds
+wait 40 turns
 expect frames=0
 )"));
+}
+
+TEST(SlowEditor, draws_nothing_once_the_reference_has_converged) {
+    const Folder home;
+    EXPECT_DRIVEN(drive(home, R"(
+wait idle
+click toolbar.shading
+click toolbar.shading.reference
+wait until views>3
+wait idle
+mark
+wait 60 turns
+expect frames=0
+expect views=0
+)",
+                        {"-", "--env", "furnace", "--window", "420x300"}));
+}
+
+TEST(Editor, draws_nothing_while_its_window_is_hidden_and_catches_up_when_it_is_back) {
+    const Folder home;
+    const fs::path file = home / "gold.json", sign = home / "ready.png";
+    write_preset(file, R"({"name": "Gold", "roughness": {"value": 0.25}})");
+    Program program(home, drive_arguments(home, R"(
+wait idle
+screenshot )" + sign.string() + R"(
+hide
+mark
+wait until roughness=0.75        # the file changed, and the document follows
+wait 40 turns
+expect frames=0
+expect views=0
+show
+wait until views>0
+expect frames>0
+)",
+                                          {file.string()}));
+    ASSERT_TRUE(wait_for_file(sign)) << program.wait().errors;
+    write_preset(file, R"({"name": "Gold", "roughness": {"value": 0.75}, "metallic": {"value": 1}})");
+    EXPECT_DRIVEN(program.wait());
 }
 
 TEST(Editor, gives_unsaved_work_back_after_a_crash_and_to_one_window_only) {
@@ -284,12 +323,14 @@ expect dirty            # the save was called off, so the new document was, too
 )"));
 }
 
-TEST(Editor, shows_an_imported_set_on_the_mesh_that_lies_with_it) {
+TEST(Editor, shows_an_imported_set_on_the_mesh_and_under_the_light_that_lie_with_it) {
     const Folder home;
     const fs::path scan = make_scan(home);
     std::ofstream(scan / "plate.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+    save_image(scan / "evening.hdr", make_image(32, 16, 3, PixelType::F32));
     EXPECT_DRIVEN(drive(home, "wait idle\ndrop " + scan.string() +
-                                  "\nwait until item import.apply\nclick import.apply\nwait idle\nexpect "
+                                  "\nwait until item import.apply\nclick import.apply\nwait until "
+                                  "environment~evening.hdr\nwait idle\nexpect "
                                   "mesh~plate.obj\nexpect triangles=2\nexpect albedo.state=ok\nexpect "
                                   "albedo.map~BaseColor\n"));
 }

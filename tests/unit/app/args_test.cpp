@@ -23,6 +23,25 @@ TEST(Args, a_preset_alone_is_opened_in_the_editor) {
     EXPECT_EQ(args.edit.environment, "sky");
 }
 
+TEST(Args, the_reference_stops_at_a_count_or_an_error) {
+    const auto scene = [](std::vector<std::string> words) {
+        words.insert(words.begin(), {"render", "gold", "-o", "a.png"});
+        return parsed(words).render.scene;
+    };
+    EXPECT_EQ(scene({}).error, 0.0) << "as many points as asked for";
+    EXPECT_EQ(scene({"--samples", "96"}).samples, 96);
+    EXPECT_DOUBLE_EQ(scene({"--samples", "auto"}).error, 0.01);
+    EXPECT_GT(scene({"--samples", "auto"}).samples, 10000);
+    EXPECT_NEAR(scene({"--error", "0.5%"}).error, 0.005, 1e-9);
+    EXPECT_NEAR(scene({"--error", "0.005"}).error, 0.005, 1e-9);
+    EXPECT_EQ(scene({"--samples", "2048", "--error", "1%"}).samples, 2048) << "the most";
+    EXPECT_EQ(scene({"--error", "1%", "--samples", "2048"}).samples, 2048);
+    for (const char* wrong : {"0", "x", "-1%", "80%", "", "%"})
+        EXPECT_FALSE(parse_args({"render", "gold", "-o", "a.png", "--error", wrong}).args) << wrong;
+    for (const char* wrong : {"0", "12x", "-1", "", "99999999"})
+        EXPECT_FALSE(parse_args({"render", "gold", "-o", "a.png", "--samples", wrong}).args) << wrong;
+}
+
 TEST(Args, render_reads_every_option) {
     const Args args = parsed({"render",
                               "gold",

@@ -24,7 +24,7 @@ TEST(Confidence, covers_the_truth_95_times_in_100) {
         float values[8], sum = 0.0f;
         for (float& each : values) sum += each = noise(random);
         const double mean = double(sum) / 8;
-        covered += std::abs(mean - 10.0) <= confidence_of(values, 8).max * mean;
+        covered += std::abs(mean - 10.0) <= confidence_of(half_widths_of(values, 8)).max * mean;
     }
     EXPECT_NEAR(covered / double(trials), 0.95, 0.015);
 }
@@ -32,10 +32,10 @@ TEST(Confidence, covers_the_truth_95_times_in_100) {
 TEST(Confidence, is_relative_and_leaves_out_what_was_never_drawn) {
     // Two pictures of three pixels: known exactly, within 10 %, never drawn.
     const std::vector<float> values{4.0f, 9.0f, 0.0f, 4.0f, 11.0f, 0.0f};
-    const Confidence known = confidence_of(values, 2);
+    const Confidence known = confidence_of(half_widths_of(values, 2));
     EXPECT_NEAR(known.max, 12.706 * 1.0 / 10.0, 1e-3);
     EXPECT_NEAR(known.median, 0.0, 1e-9);
-    EXPECT_EQ(confidence_of(std::vector<float>(4, 0.0f), 2).max, 0.0);
+    EXPECT_EQ(confidence_of(half_widths_of(std::vector<float>(4, 0.0f), 2)).max, 0.0);
 }
 
 }  // namespace

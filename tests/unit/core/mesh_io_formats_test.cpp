@@ -294,7 +294,7 @@ TEST(MeshOff, reads_counts_comments_colours_and_polygons) {
     const std::string body = "\n0 0 0 255 0 0\n2 0 0 255 0 0\n2 2 0 255 0 0 # corner\n\n0 2 0 255 0 0\n";
     for (const std::string& text :
          {"OFF\n# a square\n4 1 0" + body + "4 0 1 2 3 0.5 0.5 0.5\n", "OFF 4 1 0" + body + "4 0 1 2 3\n",
-          "COFF\r\n4 1 4" + body + "4 0 1 2 3 255 0 0\n",
+          "COFF\r\n4 1 4" + body + "4 0 1 2 3 255 0 0\n", "OFF\n4 1 0 9 8 7 6" + body + "4 0 1 2 3\n",
           "OFF\n4 2 0" + body + "3 0 1 2 128 0 0\n3 0 2 3 128 0 0\n"}) {
         const Mesh mesh = loaded("square.off", text);
         EXPECT_EQ(mesh.indices.size(), 6u) << text;

@@ -59,7 +59,7 @@ TEST(KernelSplit, far_part_of_a_sharp_lobe_is_its_power_law) {
 TEST(NearField, integrates_a_rectangle_exactly) {
     const double spread = 0.3, x[] = {-0.4, 0.1, 0.9}, top = -0.2, bottom = 0.5;
     double padded[3 + simd::kNearPadding] = {x[0], x[1], x[2]}, out[3 + simd::kNearPadding];
-    simd::near_corners(padded, 3, top, bottom, spread, out);
+    simd::near_corners({padded, 3, top, bottom}, spread, out);
     for (int k = 0; k < 2; ++k) {
         double sum = 0.0;
         constexpr int steps = 400;

@@ -39,9 +39,9 @@ TEST(LobeTruth, weights_sum_to_the_albedo_and_constant_light_comes_back_constant
     const Lobe lobe = sample_lobe(0.4, 0.1, 256);
     const LobeSums sums = sum_lobe(lobe, furnace, spread_frames(3)[1]);
     EXPECT_NEAR(sums.plain[0], lobe.Ess, 1e-4);
-    EXPECT_NEAR(
-        lobe_radiance(furnace, lobe_at(lobe_nodes(), 0.4f, 0.3f, 0.5f), true, {0, 1, 0}, {0, 0, 1}, 0.3f)[0],
-        1.0f, 1e-4f);
+    EXPECT_NEAR(lobe_radiance(furnace, lobe_at(lobe_nodes(), 0.4f, 0.3f, 0.5f), true,
+                              {{0, 1, 0}, {0, 0, 1}, 0.3f})[0],
+                1.0f, 1e-4f);
 }
 
 TEST(LobeTruth, reflects_a_light_as_the_samples_do) {

@@ -1,0 +1,47 @@
+// A slice of the reference picture: the mesh is rasterised once, moved within the pixel, and what lies there
+// is shaded densely: software renderers shade the edges of small triangles several times over.
+#include "renderer/gl/reference.h"
+#include "renderer/renderer_state.h"
+
+#include <limits>
+
+namespace patina {
+
+void Renderer::State::draw_reference(const Scene& scene, const GpuEnvironment& environment,
+                                     ReferenceTarget& target, const ReferenceSlice& slice) {
+    View view = scene.view;
+    view.debug = DebugView::Final;
+    const Features features = reference_features(features_for(scene, environment));
+    auto frame = make_frame_block(scene.camera, view, target.size, layout_of(environment),
+                                  std::numeric_limits<float>::max());
+    move_picture(frame, 2.0f * slice.jitter_px / glm::vec2(target.size));
+    const float exposure = frame.camera_position.w;
+    set_switches();
+    gl::begin_reference_surface(target, kind_of(features & kMaps));
+    if (scene.mesh)
+        rasterise(scene, frame, features & kMaps);
+    else
+        upload_block(frame_rows, gl::kFrameSlot, frame);
+    gl::begin_reference_slice(target, slice.replicate, slice.weight);
+    upload_block(material_rows, gl::kMaterialSlot, make_material_block(scene.material, features, exposure));
+    bind_light(environment);
+    if (scene.mesh) {
+        glBindBufferBase(GL_UNIFORM_BUFFER, gl::kPointSlot, target.points.name());
+        const gl::Program& program = reference(features, colored_lights(environment));
+        glUseProgram(program.name());
+        const double light = slice.total * double(exposure);
+        glUniform2f(glGetUniformLocation(program.name(), "reference_slice"), float(slice.points),
+                    light > 0.0 ? float(1.0 / light) : 0.0f);
+        gl::draw_all(program.name(), nothing.name(), {0, 0, target.size});
+        count_draw(1);
+    }
+    gl::begin_reference_background();
+    if (view.background != Background::Plain) {
+        draw_background(view.background);
+        count_draw(1);
+    }
+    work.reference_points += std::uint64_t(slice.points);
+    gl::end_reference_slice();
+}
+
+}  // namespace patina

@@ -1,2 +1,0 @@
-// Only depth is wanted.
-void main() {}
