@@ -50,11 +50,11 @@ struct CommandCase {
     std::string arguments;
 };
 
-std::vector<CommandCase> command_cases() {
+std::vector<CommandCase> command_cases(const BenchContext& context) {
     const std::string render = "render ";
     const std::string compare = "compare ";
     const std::string views = " --env ";
-    return {
+    std::vector<CommandCase> cases{
         {"uniform plastic", render + "plastic-glossy-red --env sky"},
         {"full metal", render + "gold --env sky"},
         {"textured, no normal map", render + "terrazzo --env sky"},
@@ -64,6 +64,12 @@ std::vector<CommandCase> command_cases() {
         {"4 views", compare + "worn-paint" + views + "studio sky sunset night"},
         {"9 views", compare + "worn-paint gold porcelain" + views + "studio sky sunset"},
         {"14 views", compare + "worn-paint gold" + views + "studio sky sunset overcast night furnace test"}};
+    if (context.preset.empty()) return cases;
+    const std::string mesh = context.mesh.empty() ? "" : " --mesh " + quoted(utf8_to_path(context.mesh));
+    cases.push_back({path_to_utf8(utf8_to_path(context.preset).filename()),
+                     render + quoted(utf8_to_path(context.preset)) + " --env studio" + mesh});
+    cases.push_back({"the same without maps", render + "- --env studio" + mesh});
+    return cases;
 }
 
 struct CommandRun {
@@ -117,7 +123,7 @@ Json summary(const std::vector<CommandRun>& runs) {
             {"work", runs.front().work}};
 }
 
-Json bench_commands(int repetitions) {
+Json bench_commands(const BenchContext& context, int repetitions) {
     const TemporaryFolder folder("patina-skip");
     const char* shared_cache = std::getenv("XDG_CACHE_HOME");  // where the driver keeps compiled shaders, too
     const std::string before = shared_cache ? shared_cache : "";
@@ -126,7 +132,7 @@ Json bench_commands(int repetitions) {
     Json rows = Json::array();
     std::printf("%-28s %9s %9s %6s  %9s %9s  %s\n", "picture, whole command", "CPU ms", "no skip", "ratio",
                 "peak MiB", "no skip", "largest step");
-    for (const CommandCase& each : command_cases()) {
+    for (const CommandCase& each : command_cases(context)) {
         std::array<std::vector<CommandRun>, 2> runs;
         for (int i = 0; i < repetitions; ++i)
             for (const int which : {i % 2, 1 - i % 2})
@@ -227,6 +233,49 @@ Json bench_steps(Stage& stage, const BenchContext& context) {
     return rows;
 }
 
+/// What sharing costs and saves, from the steps above.
+Json shared_views(const Json& steps) {
+    const auto ms = [&](const char* name, const char* key) {
+        for (const Json& row : steps)
+            if (row.at("name") == name) return row.at(key).get<double>();
+        return 0.0;
+    };
+    const double orbit = ms("orbit, 4 views", "skip_ms");
+    const double nine = ms("light rotation, 9 views of 300", "skip_ms");
+    const std::array<std::pair<const char*, double>, 4> rows{
+        {{"4 views rasterised once and shaded / shaded alone",
+          orbit / ms("light rotation, 4 views", "skip_ms")},
+         {"4 views rasterised once and shaded / 4 independent", orbit / ms("orbit, 4 views", "no_skip_ms")},
+         {"light of 9 views turned / of one of them", nine / ms("light rotation, 1 view of 300", "skip_ms")},
+         {"light of 9 views turned / of one as large as all",
+          nine / ms("light rotation, 1 view of 900", "skip_ms")}}};
+    Json json = Json::array();
+    std::printf("\n");
+    for (const auto& [name, ratio] : rows) {
+        std::printf("%-56s %6.2f\n", name, ratio);
+        json.push_back({{"name", name}, {"ratio", ratio}});
+    }
+    return json;
+}
+
+// --- a preset's maps, from their files to the GPU ---
+
+Json bench_maps(Stage& stage, const BenchContext& context) {
+    std::array<std::vector<double>, 2> ms;
+    const auto load = [&](bool skip) {
+        SceneLoader loader(stage.renderer, context.registry, {.skip = skip});
+        loader.mesh(context.mesh.empty() ? "sphere" : context.mesh, true);
+        const SceneOptions options{.mesh = context.mesh.empty() ? "sphere" : context.mesh,
+                                   .size_px = glm::ivec2(kSidePx)};
+        return milliseconds([&] { loader.scene(context.preset, options); });
+    };
+    for (int i = 0; i < context.repetitions(); ++i)
+        for (const int which : {i % 2, 1 - i % 2}) ms[std::size_t(which)].push_back(load(which == 0));
+    const double skip = median(ms[0]), all = median(ms[1]);
+    std::printf("\n%-34s %9.1f %9.1f %6.2f\n", "its maps, from file to GPU", skip, all, skip / all);
+    return {{"skip_ms", skip}, {"no_skip_ms", all}, {"ratio", skip / all}};
+}
+
 // --- another environment, until the picture under it is there ---
 
 Json bench_switch(Stage& stage, const BenchContext& context) {
@@ -236,37 +285,45 @@ Json bench_switch(Stage& stage, const BenchContext& context) {
         return SceneLoader::Options{
             .parallel_for = stage.jobs.parallel_for(), .cache = {.folder = cache}, .skip = skip};
     };
-    const auto show = [&](SceneLoader& loader, Scene scene) {
-        return milliseconds([&] {
-            scene.environment = loader.environment(environment, loader.needed_light(scene));
+    struct Shown {
+        std::vector<double> light, all;  ///< ms until the light is on the GPU, and until it is seen
+    };
+    std::array<std::array<Shown, 3>, 2> shown;
+    const auto show = [&](SceneLoader& loader, Scene scene, Shown& times) {
+        double light = 0.0;
+        times.all.push_back(milliseconds([&] {
+            light = milliseconds(
+                [&] { scene.environment = loader.environment(environment, loader.needed_light(scene)); });
             stage.renderer.draw(scene, *target);
             stage.renderer.read_display(*target);
-        });
+        }));
+        times.light.push_back(light);
     };
-    std::array<std::array<std::vector<double>, 3>, 2> ms;
     std::vector<double> decode;
     for (int i = 0; i < context.repetitions(); ++i) {
         decode.push_back(milliseconds([&] { load_environment(context.registry, environment); }));
         for (const int which : {0, 1}) {
             const TemporaryFolder cache("patina-skip");
-            auto& own = ms[std::size_t(which)];
+            auto& own = shown[std::size_t(which)];
             for (const std::size_t from : {0u, 1u}) {  // nowhere, disk
                 SceneLoader loader(stage.renderer, context.registry, options(which == 0, cache.path()));
                 const Scene scene = loader.scene("plastic-glossy-red", SceneOptions{});
-                own[from].push_back(show(loader, scene));
-                if (from == 1) own[2].push_back(show(loader, scene));  // memory
+                show(loader, scene, own[from]);
+                if (from == 1) show(loader, scene, own[2]);  // memory
             }
         }
     }
     constexpr std::array names{"cold", "disk cache", "memory"};
     Json json{{"environment", environment}, {"decode_ms", median(decode)}, {"cases", Json::array()}};
-    std::printf("\n%-34s %9s %9s   (decoding alone %.1f ms)\n",
-                ("environment " + path_to_utf8(utf8_to_path(environment).filename())).c_str(), "ms",
-                "no skip", median(decode));
+    std::printf("\n%-34s %9s %9s %9s   (decoding alone %.1f ms)\n",
+                ("environment " + path_to_utf8(utf8_to_path(environment).filename())).c_str(), "light ms",
+                "seen ms", "no skip", median(decode));
     for (std::size_t from = 0; from < names.size(); ++from) {
-        const double skip = median(ms[0][from]), all = median(ms[1][from]);
-        std::printf("%-34s %9.1f %9.1f\n", names[from], skip, all);
-        json["cases"].push_back({{"name", names[from]}, {"skip_ms", skip}, {"no_skip_ms", all}});
+        const double light = median(shown[0][from].light);
+        const double skip = median(shown[0][from].all), all = median(shown[1][from].all);
+        std::printf("%-34s %9.1f %9.1f %9.1f\n", names[from], light, skip, all);
+        json["cases"].push_back(
+            {{"name", names[from]}, {"light_ready_ms", light}, {"skip_ms", skip}, {"no_skip_ms", all}});
     }
     return json;
 }
@@ -274,10 +331,12 @@ Json bench_switch(Stage& stage, const BenchContext& context) {
 }  // namespace
 
 Json bench_skip(const BenchContext& context) {
-    Json json{{"renderer", ""}, {"commands", bench_commands(context.quick ? 1 : 3)}};
+    Json json{{"renderer", ""}, {"commands", bench_commands(context, context.quick ? 1 : 3)}};
     Stage stage;
     json["renderer"] = stage.context.description();
     json["steps"] = bench_steps(stage, context);
+    json["shared_views"] = shared_views(json["steps"]);
+    if (!context.preset.empty()) json["maps"] = bench_maps(stage, context);
     json["environment_switch"] = bench_switch(stage, context);
     return json;
 }
