@@ -14,10 +14,10 @@ SkippedWork& entry(WorkLedger& ledger, std::string_view what, std::string_view w
     return ledger.skipped.emplace_back(SkippedWork{std::string(what), std::string(why)});
 }
 
-/// Groups of three digits, apart by a narrow space.
+/// Groups of three digits, apart by a space that does not break (Latin-1, which the interface's font has).
 std::string grouped(std::uint64_t number) {
     std::string digits = std::to_string(number);
-    for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, "\u202f");
+    for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, "\u00a0");
     return digits;
 }
 

@@ -38,7 +38,7 @@ TEST(Ledger, numbers_are_written_for_people) {
     const LedgerRow& count = kLedgerRows.front();
     WorkLedger work;
     work.*count.member = 1234567;
-    EXPECT_EQ(ledger_text(count, work), "1\u202f234\u202f567");
+    EXPECT_EQ(ledger_text(count, work), "1\u00a0234\u00a0567");
     for (const LedgerRow& row : kLedgerRows)
         if (row.unit == LedgerUnit::Bytes) {
             work.*row.member = 512;
