@@ -220,12 +220,17 @@ std::string skip_tables(const Json& result) {
                 number(row.at("skip_ms").get<double>(), 1) + " | " +
                 number(row.at("no_skip_ms").get<double>(), 1) + " | " +
                 number(row.at("ratio").get<double>(), 2) + " |\n";
+    text += "\n| views side by side | ratio |\n|---|---|\n";
+    for (const Json& row : result.at("shared_views"))
+        text += "| " + row.at("name").get<std::string>() + " | " + number(row.at("ratio").get<double>(), 2) +
+                " |\n";
     const Json& light = result.at("environment_switch");
     text += "\nAnother environment, until its picture is there; decoding it alone takes " +
             number(light.at("decode_ms").get<double>(), 1) +
-            " ms.\n\n| from | ms | without skipping |\n|---|---|---|\n";
+            " ms.\n\n| from | light there, ms | seen, ms | without skipping |\n|---|---|---|---|\n";
     for (const Json& row : light.at("cases"))
         text += "| " + row.at("name").get<std::string>() + " | " +
+                number(row.at("light_ready_ms").get<double>(), 1) + " | " +
                 number(row.at("skip_ms").get<double>(), 1) + " | " +
                 number(row.at("no_skip_ms").get<double>(), 1) + " |\n";
     return text;

@@ -91,7 +91,9 @@ void draw_table(PanelContext& context, ImportSheet& sheet) {
     constexpr ImGuiTableFlags flags =
         ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_ScrollY;
     const float row = px(54);
-    const float most = ImGui::GetIO().DisplaySize.y - px(260);
+    const int offers = 1 + (sheet.mesh.empty() ? 0 : 1) + (sheet.environment.empty() ? 0 : 1);
+    const float below = px(28) * static_cast<float>(offers) + px(20) * static_cast<float>(sheet.notes.size());
+    const float most = ImGui::GetIO().DisplaySize.y - px(232) - below;
     const float height = std::min(most, row * static_cast<float>(sheet.rows.size()) + px(34));
     if (!ImGui::BeginTable("##rows", 4, flags, {0.0f, std::max(px(90), height)})) return;
     ImGui::TableSetupScrollFreeze(0, 1);

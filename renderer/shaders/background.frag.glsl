@@ -25,6 +25,34 @@ vec3 blurred_lights(vec3 d, float alpha2) {
 }
 #endif
 
+#ifndef HAS_BLUR
+// The panorama where a texel is wider than a pixel: a cubic B-spline as four bilinear look-ups (Sigg & Hadwiger, GPU
+// Gems 2, ch. 20). It keeps every texel's light, and a lamp of a few texels that is clipped on the screen ends in a
+// round edge; between bilinear texels it would be a block.
+vec4 smooth_texel(vec2 at) {
+    vec2 size = vec2(textureSize(panorama_map, 0));
+    vec2 x = at * size - 0.5;
+    vec2 f = fract(x), g = 1.0 - f;
+    vec2 w0 = g * g * g / 6.0, w3 = f * f * f / 6.0;
+    vec2 w1 = 2.0 / 3.0 - 0.5 * f * f * (2.0 - f);
+    vec2 low = w0 + w1, high = 1.0 - low;
+    vec2 first = (floor(x) - 0.5 + w1 / low) / size, second = (floor(x) + 1.5 + w3 / high) / size;
+    return low.y * (low.x * textureLod(panorama_map, first, 0.0) +
+                    high.x * textureLod(panorama_map, vec2(second.x, first.y), 0.0)) +
+           high.y * (low.x * textureLod(panorama_map, vec2(first.x, second.y), 0.0) +
+                     high.x * textureLod(panorama_map, second, 0.0));
+}
+
+// Fades in from as many texels as pixels to half as many.
+vec3 background_light(vec3 d, float solid_angle, vec3 lights) {
+    vec3 plain = panorama_light(d, solid_angle, lights);
+    float magnified = clamp(-0.5 * log2(max(solid_angle, 1e-16)) - log2(env_scale.w), 0.0, 1.0);
+    if (magnified == 0.0) return plain;
+    vec4 texel = smooth_texel(panorama_coordinates(d));
+    return mix(plain, (texel.rgb + texel.a * lights) * env_scale.x, magnified);
+}
+#endif
+
 void main() {
 #ifdef HAS_STORED
     vec3 world_ray = texelFetch(stored_views, ivec2(gl_FragCoord.xy), 0).xyz;
@@ -33,7 +61,7 @@ void main() {
 #ifdef HAS_BLUR
     vec3 color = prefiltered_light(d, log2(ray_up.w)) + blurred_lights(d, square(square(ray_up.w)));
 #else
-    vec3 color = panorama_light(d, ray_center.w, light_color(d));
+    vec3 color = background_light(d, ray_center.w, light_color(d));
 #endif
     picture_color = vec4(min(color, vec3(ray_right.w)), 1.0);
 }

@@ -96,7 +96,7 @@ TEST(Robustness, mapped_normals_that_face_away_are_bent_towards_the_viewer) {
 TEST(Robustness, a_sun_of_a_million_stays_finite_and_keeps_its_size) {
     const auto radiance = [](glm::vec3 d) { return glm::vec3(d.y > 0.999f ? 1e6f : 0.25f); };
     const auto light = renderer().upload_environment(
-        make_panorama(radiance, 256),
+        make_panorama(radiance, 512),
         make_baked([](glm::vec3, float r) { return glm::vec3(0.5f / (r * r)); }));
     Scene scene = make_scene(light, sphere());
     scene.material.metallic.value = 1.0f;
@@ -113,6 +113,36 @@ TEST(Robustness, a_sun_of_a_million_stays_finite_and_keeps_its_size) {
     EXPECT_NEAR(center(radiance_of(scene)).x, 1e6f, 500.0f);
     scene.camera.pitch_deg = 0.0f;
     EXPECT_NEAR(center(radiance_of(scene)).x, 0.25f, 2e-3f);  // what is dark beside it is still there
+}
+
+/// Of pixels of the picture's middle that are brighter than that: the widest extent along the axes and along
+/// the diagonals, in pixels.
+glm::vec2 extents_above(const Image& image, float limit) {
+    glm::vec4 low(1e9f), high(-1e9f);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            if (texel(image, x, y, 0) <= limit) continue;
+            const float s = std::sqrt(0.5f);
+            const glm::vec4 at(float(x), float(y), s * float(x + y), s * float(x - y));
+            low = glm::min(low, at);
+            high = glm::max(high, at);
+        }
+    const glm::vec4 wide = high - low;
+    return {std::max(wide.x, wide.y), std::max(wide.z, wide.w)};
+}
+
+TEST(Robustness, a_lamp_of_one_texel_looks_round_in_a_sharp_background) {
+    Environment environment{.width = 256, .height = 128};
+    environment.radiance.assign(256 * 128, glm::vec3(0.01f));
+    environment.radiance[64 * 256 + 128] = glm::vec3(400.0f);  // ahead, on the horizon
+    environment.content_hash = environment_hash(environment);
+    Scene scene = make_scene(
+        renderer().upload_environment(environment, make_baked([](glm::vec3, float) { return glm::vec3(0); })),
+        nullptr);
+    scene.camera.fov_deg = 10.0f;  // a texel is nine pixels wide
+    const glm::vec2 wide = extents_above(radiance_of(scene, glm::ivec2(64)), 1.0f);
+    ASSERT_GT(wide.x, 10.0f);
+    EXPECT_LT(wide.y, 1.2f * wide.x) << "a block is 1.41 times as wide across its corners";
 }
 
 TEST(Robustness, the_same_scene_twice_gives_the_same_bytes) {
