@@ -26,22 +26,19 @@ Scene with_shading(Scene scene, Shading shading) {
     return scene;
 }
 
-/// What is compared and what comes of it; made on a worker.
-struct Measured {
-    PictureError error;
-    double flip = 0.0;
-    Image error_map, flip_map, signed_map;
-};
 struct Pictures {
     Image shaded, reference, mask;
+    Shading mode = Shading::SplitSum;
+    int samples = 0;
 };
-Measured measure(const Pictures& pictures) {
-    Measured measured;
+MeasuredError measure(const Pictures& pictures) {
+    MeasuredError measured{.mode = pictures.mode, .samples = pictures.samples};
     measured.error = picture_error(pictures.shaded, pictures.reference, pictures.mask);
-    measured.error_map = difference_picture(pictures.shaded, pictures.reference, DifferenceKind::Relative);
-    const Image flip = hdr_flip(pictures.reference, pictures.shaded);
-    measured.flip = mean_value(flip, pictures.mask);
-    measured.flip_map = viridis_picture(flip, kFlipWhite);
+    measured.relative = relative_error(pictures.shaded, pictures.reference);
+    measured.error_map = viridis_picture(measured.relative, kErrorWhite);
+    measured.flip = hdr_flip(pictures.reference, pictures.shaded);
+    measured.mean_flip = mean_value(measured.flip, pictures.mask);
+    measured.flip_map = viridis_picture(measured.flip, kFlipWhite);
     measured.signed_map = difference_picture(pictures.shaded, pictures.reference, DifferenceKind::Signed);
     return measured;
 }
@@ -73,6 +70,7 @@ struct AccuracyMeter::State {
     Shading measured_mode = Shading::SplitSum;
     Shading judged = Shading::SplitSum;
     MapHandle error_map, flip_map, signed_map;
+    std::shared_ptr<const MeasuredError> last;
     ui::AccuracyStatus status;
 
     void draw_other(const Scene& scene, glm::ivec2 size, Shading shading);
@@ -98,6 +96,7 @@ void AccuracyMeter::State::forget_measurement() {
     job = 0;
     measured_samples = 0;
     error_map = flip_map = signed_map = nullptr;
+    last = nullptr;
     status = {};
 }
 
@@ -163,23 +162,24 @@ void AccuracyMeter::State::start_measurement(const std::shared_ptr<State>& self,
     const TargetHandle target =
         renderer.make_target(Renderer::size_px(*reference_target), 4, TargetPrecision::Full);
     status.frame_ms = renderer.timed_draw(shown, *target);
-    const auto pictures = std::make_shared<Pictures>(Pictures{renderer.read_radiance(*target),
-                                                              renderer.read_radiance(*reference_target),
-                                                              reference->inner_pixels()});
+    const auto pictures = std::make_shared<Pictures>(
+        Pictures{renderer.read_radiance(*target), renderer.read_radiance(*reference_target),
+                 reference->inner_pixels(), judged, reference->progress().samples});
     measured_samples = reference->progress().samples;
     status.measured = status.measured && measured_mode == judged;
     measured_mode = judged;
     job = jobs.start(
         "Measuring the shading's error",
         [self, pictures](JobContext&) -> Jobs::Done {
-            const auto measured = std::make_shared<Measured>(measure(*pictures));
+            const auto measured = std::make_shared<const MeasuredError>(measure(*pictures));
             return [self, measured] {
                 self->job = 0;
                 self->status.measured = true;
                 self->status.rms = measured->error.rms;
                 self->status.p95 = measured->error.p95;
                 self->status.max = measured->error.max;
-                self->status.flip = measured->flip;
+                self->status.flip = measured->mean_flip;
+                self->last = measured;
                 self->error_map = self->renderer.upload_thumbnail(measured->error_map);
                 self->flip_map = self->renderer.upload_thumbnail(measured->flip_map);
                 self->signed_map = self->renderer.upload_thumbnail(measured->signed_map);
@@ -200,6 +200,7 @@ AccuracyMeter::AccuracyMeter(Renderer& renderer, Jobs& jobs)
                        .error_map = {},
                        .flip_map = {},
                        .signed_map = {},
+                       .last = {},
                        .status = {}}) {}
 
 AccuracyMeter::~AccuracyMeter() = default;
@@ -253,6 +254,15 @@ const RenderTarget* AccuracyMeter::target(ui::Layer layer) const {
     }
     const auto found = state.others.find(layer.mode);
     return found != state.others.end() ? found->second.target.get() : nullptr;
+}
+
+std::shared_ptr<const AccuracyPictures> AccuracyMeter::pictures() const {
+    const State& state = *state_;
+    if (!state.wanted || !state.gathering || state.reference->progress().samples == 0) return nullptr;
+    return std::make_shared<AccuracyPictures>(
+        AccuracyPictures{state.renderer.read_radiance(*state.reference_target),
+                         state.renderer.read_display(*state.reference_target),
+                         state.reference->progress().samples, state.last});
 }
 
 const ui::AccuracyStatus& AccuracyMeter::status() const { return state_->status; }

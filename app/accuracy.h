@@ -3,12 +3,29 @@
 #pragma once
 
 #include "app/jobs.h"
+#include "renderer/core/metrics.h"
 #include "renderer/reference.h"
 #include "ui/panel_context.h"
 
 #include <memory>
 
 namespace patina {
+
+/// What the last measurement found. Made on a worker.
+struct MeasuredError {
+    Shading mode = Shading::SplitSum;  ///< that was held against the reference
+    int samples = 0;                   ///< of the reference
+    PictureError error;
+    double mean_flip = 0.0;
+    Image relative, flip;                   ///< values; 1 channel, F32
+    Image error_map, flip_map, signed_map;  ///< in colours
+};
+/// To be saved.
+struct AccuracyPictures {
+    Image radiance, display;  ///< of the reference so far
+    int samples = 0;
+    std::shared_ptr<const MeasuredError> measured;  ///< nullptr: not yet
+};
 
 class AccuracyMeter {
 public:
@@ -30,6 +47,8 @@ public:
     /// Where that is drawn; nullptr for maps and what is not there yet.
     const RenderTarget* target(ui::Layer layer) const;
     const ui::AccuracyStatus& status() const;
+    /// Nothing while no reference gathers.
+    std::shared_ptr<const AccuracyPictures> pictures() const;
 
 private:
     struct State;

@@ -59,6 +59,7 @@ Loop::Loop(const EditArgs& args, const Registry& registry)
       jobs_(worker_count(), Window::wake),
       editor_(registry, renderer_, jobs_, with_arguments(remembered_.settings, args), args.skip),
       meter_(renderer_, jobs_) {
+    editor_.accuracy_pictures = [this] { return meter_.pictures(); };
     if (!args.drive_script.empty())
         drive_.emplace(load_drive(utf8_to_path(args.drive_script)), args.drive_script);
     editor_.status.renderer = window_.description();

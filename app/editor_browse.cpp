@@ -14,8 +14,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kMaxPictureSide = 16384;
-
 /// Where a person would look first for that purpose.
 fs::path likely_folder(const Editor& editor) {
     const ui::FileBrowser& browser = editor.browser;
@@ -89,41 +87,6 @@ void make_folder(Editor& editor, const std::string& folder) {
 void open_browser(Editor& editor, ui::BrowserPurpose purpose) {
     editor.browser = {.open = true, .purpose = purpose};
     list_folder(editor, "");
-}
-
-void export_picture(Editor& editor, const ui::request::ExportRender& request) {
-    try {
-        const fs::path file = utf8_to_path(request.file);
-        const ImageExporter& exporter = image_exporter(editor.registry, file);
-        if (!editor.reconciler.drawable())
-            throw std::runtime_error("There is no picture yet; wait for the light and export again.");
-        if (is_reference(editor.document.view))
-            throw std::runtime_error(
-                "The reference takes its time and is saved by the command line: patina render PRESET -o " +
-                path_to_utf8(file.filename()) + " --shading reference --samples 4096.");
-        const glm::ivec2 size(std::clamp(request.width, 1, kMaxPictureSide),
-                              std::clamp(request.height, 1, kMaxPictureSide));
-        const TargetHandle target = editor.renderer.make_target(size);
-        editor.renderer.draw(editor.reconciler.detailed_scene(editor.camera, editor.document.view, size.y),
-                             *target);
-        const bool radiance = exporter.extensions.front() == "exr";
-        auto picture = std::make_shared<Image>(radiance ? editor.renderer.read_radiance(*target)
-                                                        : editor.renderer.read_display(*target));
-        ImageMetadata metadata{{"Software", "Patina"},
-                               {"Title", document_title(editor.document, editor.file)},
-                               {"Environment", editor.document.environment}};
-        editor.jobs.start(
-            "Writing " + short_name(request.file),
-            [&editor, &exporter, file, picture, metadata](JobContext&) -> Jobs::Done {
-                exporter.save(file, *picture, metadata);
-                return [&editor, file] {
-                    log_line(editor, ui::Severity::Info, "Exported " + path_to_utf8(file.filename()) + ".");
-                };
-            },
-            [&editor](const std::string& error) { log_line(editor, ui::Severity::Error, error); });
-    } catch (const std::exception& error) {
-        log_line(editor, ui::Severity::Error, error.what());
-    }
 }
 
 }  // namespace patina

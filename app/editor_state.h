@@ -19,12 +19,16 @@
 #include "ui/panel_context.h"
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 namespace patina {
+
+struct AccuracyPictures;
 
 /// What a preset in the library shows before it is opened.
 struct PresetEntry {
@@ -54,6 +58,9 @@ struct Editor {
     EditorMaps maps;
     EditorAb ab;
     ui::ProbeValues probe;  ///< what is under the mouse
+
+    std::function<std::shared_ptr<const AccuracyPictures>()>
+        accuracy_pictures;  ///< set by who owns the meter
 
     // The interface's side.
     ui::UiState ui;

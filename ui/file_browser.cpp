@@ -154,8 +154,8 @@ void confirm(PanelContext& context) {
             requests.push_back(request::LoadMesh{file});
             break;
         case BrowserPurpose::ExportRender:
-            requests.push_back(
-                request::ExportRender{file, context.ui.export_width, context.ui.export_height});
+            requests.push_back(request::ExportRender{file, context.ui.export_width, context.ui.export_height,
+                                                     context.ui.export_what});
             break;
         case BrowserPurpose::OpenComparison:
             requests.push_back(request::OpenSheet{file});
@@ -287,6 +287,24 @@ void draw_entries(PanelContext& context, const std::vector<const BrowserEntry*>&
 
 void draw_export_size(PanelContext& context) {
     UiState& ui = context.ui;
+    static constexpr std::array<Option, 4> what{
+        Option{"Picture", "The view as it is set, in any size."},
+        Option{"Reference", "The reflectance integral as far as it has gathered, in the viewport's size."},
+        Option{"Relative error", "How far the shading is from the reference, with its legend."},
+        Option{"FLIP", "How different the two look, with its legend."}};
+    int index = int(ui.export_what);
+    if (combo(context, "browser.what", what, index, {.width = px(120), .tooltip = "What to export."}))
+        ui.export_what = request::ExportWhat(index);
+    ImGui::SameLine(0.0f, px(16));
+    if (ui.export_what != request::ExportWhat::Picture) {
+        ImGui::AlignTextToFramePadding();
+        text_line(context,
+                  ui.export_what == request::ExportWhat::Reference
+                      ? ".png: the display picture   .exr: scene-linear light"
+                      : ".png: colours with a legend   .exr: the values",
+                  color::kFaint);
+        return;
+    }
     const auto size_field = [&](const char* name, const char* tooltip, int& value) {
         ImGui::PushID(name);
         ImGui::SetNextItemWidth(px(70));

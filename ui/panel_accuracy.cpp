@@ -4,6 +4,7 @@
 #include "ui/icons.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
+#include "ui/workspace.h"
 
 #include <imgui.h>
 
@@ -74,6 +75,13 @@ std::string progress_of(const AccuracyStatus& status) {
     if (status.half_width > 0.0) text += ", known within " + percent(status.half_width);
     if (status.converged) return text + " (converged)";
     return text + (status.done ? " (at its limit)" : "…");
+}
+
+/// What one probably wants of the window that shows this.
+request::ExportWhat exported(const Layer& layer) {
+    if (layer.kind == Layer::Error) return request::ExportWhat::Error;
+    if (layer.kind == Layer::Flip) return request::ExportWhat::Flip;
+    return request::ExportWhat::Reference;
 }
 
 std::optional<DifferenceKind> map_of(const Layer& layer) {
@@ -149,12 +157,13 @@ void draw_accuracy_panel(PanelContext& context) {
     text_line(context, headline(status));
     ImGui::PopFont();
     record(context, "accuracy.headline");
-    if (status.measured)
+    if (status.measured) {
         text_line(context,
                   "95 % of values within " + percent(status.p95) + "  ·  largest " + percent(status.max) +
                       "  ·  mean FLIP " + formatted("%.3f", status.flip),
                   color::kMuted);
-    record(context, "accuracy.figures");
+        record(context, "accuracy.figures");
+    }
     text_line(context, progress_of(status), color::kMuted);
     record(context, "accuracy.progress");
     layer_combo(context, "accuracy.left", accuracy.split ? "Left of the line." : "What the viewport shows.",
@@ -164,6 +173,11 @@ void draw_accuracy_panel(PanelContext& context) {
              "Show another picture right of a line that can be dragged.", accuracy.split);
     ImGui::SameLine();
     layer_combo(context, "accuracy.right", "Right of the line.", accuracy.right);
+    ImGui::SameLine();
+    if (button(context, "accuracy.export", "Export…", "Save the reference or a map of the error.")) {
+        context.ui.export_what = exported(accuracy.left);
+        open_browser(context, BrowserPurpose::ExportRender);
+    }
     if (!accuracy.split) return;
     ImGui::SameLine();
     checkbox(context, "accuracy.blink", "Blink", "Both in turns, twice a second: what differs moves.",

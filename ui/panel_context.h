@@ -301,6 +301,7 @@ struct UiState {
     std::uint64_t log_seen = 0;               ///< lines of the log that were shown
     std::array<bool, kMapSlots> slot_open{};  ///< map options unfolded
     int export_width = 1920, export_height = 1080;
+    request::ExportWhat export_what = request::ExportWhat::Picture;
     bool focus_search = false;        ///< the library's search field takes the keyboard next frame
     std::optional<MapSlot> hit_slot;  ///< slot under the last drop, flashed for a moment
     std::optional<int> hit_view;      ///< view of the sheet under the last drop

@@ -83,10 +83,14 @@ struct LoadMesh {
 };
 
 // Pictures, work, files.
+/// The view as set; or, in the size of the viewport, the reference as it has gathered and what the shading
+/// misses of it.
+enum class ExportWhat { Picture, Reference, Error, Flip };
 struct ExportRender {
     std::string file;  ///< .png: display picture, .exr: scene-linear radiance
-    int width = 0;
+    int width = 0;     ///< of ExportWhat::Picture
     int height = 0;
+    ExportWhat what = ExportWhat::Picture;
 };
 // Views side by side.
 struct ShowSheet {

@@ -1,6 +1,7 @@
 // The program as a person meets it: each test opens the window, does something and looks at what came of it.
 #include "materials/material_io.h"
 #include "renderer/core/image_io.h"
+#include "renderer/core/metrics.h"
 #include "tests/ui/editor_harness.h"
 
 #include <gtest/gtest.h>
@@ -377,6 +378,59 @@ wait until status~Exported
     EXPECT_EQ(load_image_info(home / "shot.png").type, PixelType::U8);
     EXPECT_EQ(load_image_info(home / "shot.exr").type, PixelType::F32);
     EXPECT_EQ(load_image_info(home / "shot.png").width, load_image_info(home / "shot.exr").width);
+}
+
+TEST(SlowEditor, exports_the_reference_and_what_the_shading_misses) {
+    const Folder home;
+    std::string script =
+        "resize 800 600\nwait idle\nclick status\nwait 3 frames\nclick drawer.accuracy\nwait until item "
+        "accuracy.figures\n";
+    const auto add = [&](const char* what, const char* name) {
+        script +=
+            "click accuracy.export\nwait until item browser.what\nclick browser.what\nwait 2 frames\n"
+            "click browser.what." +
+            std::string(what) + "\nwait 2 frames\nclick browser.file_name\nkey ctrl+a\ntype " + name +
+            "\nkey enter\nwait until log~\"Exported " + name + "\"\n";
+    };
+    add("reference", "truth.exr");
+    add("reference", "truth.png");
+    add("relative_error", "error.exr");
+    add("relative_error", "error.png");
+    add("flip", "flip.exr");
+    add("flip", "flip.png");
+    EXPECT_DRIVEN(drive(home, script));
+    const Image truth = load_image(home / "truth.exr").image;
+    EXPECT_EQ(truth.channels, 3);
+    EXPECT_EQ(load_image_info(home / "truth.png").width, truth.width);
+    const Image error = load_image(home / "error.exr").image;
+    EXPECT_EQ(error.channels, 1);
+    EXPECT_EQ(error.width, truth.width);
+    EXPECT_GT(mean_value(error), 0.0);
+    EXPECT_EQ(load_image_info(home / "flip.exr").type, PixelType::F32);
+    for (const char* map : {"error.png", "flip.png"}) {
+        const ImageInfo info = load_image_info(home / map);
+        EXPECT_EQ(info.type, PixelType::U8) << map;
+        EXPECT_GT(info.height, truth.height) << map << " has a title and a legend";
+    }
+}
+
+TEST(Editor, says_what_is_missing_for_an_export_of_the_error) {
+    const Folder home;
+    EXPECT_DRIVEN(drive(home, R"(
+wait idle
+key ctrl+e
+wait until item browser.what
+click browser.what
+wait 2 frames
+click browser.what.flip
+wait 2 frames
+click browser.file_name
+key ctrl+a
+type flip.png
+key enter
+wait until status~"no reference yet"
+)"));
+    EXPECT_FALSE(std::filesystem::exists(home / "flip.png"));
 }
 
 TEST(Editor, starts_with_corrupt_settings_and_a_preset_that_is_not_there) {
