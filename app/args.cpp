@@ -285,6 +285,8 @@ void add_bench(CLI::App& root, Args& args) {
         ->type_name("FILE");
     app->add_option("-o,--output", args.bench.output, "Folder for the results (default bench-results)")
         ->type_name("DIR");
+    app->add_option("--preset", args.bench.preset, "skip: a further preset to measure on")->type_name("FILE");
+    app->add_option("--mesh", args.bench.mesh, "skip: the mesh it is put on")->type_name("MESH");
     app->add_flag("--quick", args.bench.quick, "Fewer repetitions");
     app->add_option("--cases", args.bench.cases, "stability: how many random cases in all")
         ->check(CLI::PositiveNumber);

@@ -77,6 +77,7 @@ struct MapsArgs {
 struct BenchArgs {
     std::vector<std::string> names;         ///< empty: all
     std::vector<std::string> environments;  ///< besides the built-in ones
+    std::string preset, mesh;               ///< of skip, besides its own
     std::string output;                     ///< folder; empty: bench-results
     bool quick = false;
     std::int64_t cases = 0;               ///< of stability; 0: its everyday number

@@ -19,6 +19,7 @@ namespace patina {
 struct BenchContext {
     const Registry& registry;
     std::vector<std::string> environments;  ///< ids or files to measure on
+    std::string preset = {}, mesh = {};     ///< of skip: a further scene
     bool quick = false;
     std::int64_t cases = 0;  ///< of stability, over all its properties; 0: its everyday number
     std::uint64_t seed = 1;  ///< of stability's first trial

@@ -153,7 +153,7 @@ std::string shading_by_roughness(const Json& result, const std::string& material
 }
 
 /// One row a mode, one column a band of N·V on the sphere.
-std::string shading_by_NoV(const Json& result, const std::string& material) {
+std::string shading_by_nov(const Json& result, const std::string& material) {
     const Json& bands = result.at("NoV_bands");
     std::string text = "\n" + material + " sphere, by N·V.\n\n| mode |", rule = "|---|";
     for (std::size_t i = 0; i + 1 < bands.size(); ++i) {
@@ -182,7 +182,7 @@ std::string shading_tables(const Json& result) {
     for (const char* material : {"metal", "dielectric"}) {
         for (const char* mesh : {"sphere", "shaderball"})
             text += shading_by_roughness(result, material, mesh);
-        text += shading_by_NoV(result, material);
+        text += shading_by_nov(result, material);
     }
     return text;
 }
@@ -220,12 +220,17 @@ std::string skip_tables(const Json& result) {
                 number(row.at("skip_ms").get<double>(), 1) + " | " +
                 number(row.at("no_skip_ms").get<double>(), 1) + " | " +
                 number(row.at("ratio").get<double>(), 2) + " |\n";
+    text += "\n| views side by side | ratio |\n|---|---|\n";
+    for (const Json& row : result.at("shared_views"))
+        text += "| " + row.at("name").get<std::string>() + " | " + number(row.at("ratio").get<double>(), 2) +
+                " |\n";
     const Json& light = result.at("environment_switch");
     text += "\nAnother environment, until its picture is there; decoding it alone takes " +
             number(light.at("decode_ms").get<double>(), 1) +
-            " ms.\n\n| from | ms | without skipping |\n|---|---|---|\n";
+            " ms.\n\n| from | light there, ms | seen, ms | without skipping |\n|---|---|---|---|\n";
     for (const Json& row : light.at("cases"))
         text += "| " + row.at("name").get<std::string>() + " | " +
+                number(row.at("light_ready_ms").get<double>(), 1) + " | " +
                 number(row.at("skip_ms").get<double>(), 1) + " | " +
                 number(row.at("no_skip_ms").get<double>(), 1) + " |\n";
     return text;

@@ -119,7 +119,7 @@ Truth truth_of(Renderer& renderer, const Scene& scene, const Extent& extent) {
 constexpr std::array kBands{0.0, 0.3, 0.6, 1.0};
 
 /// N·V at the middle of a pixel of the unit sphere as the default camera sees it; negative beside it.
-double sphere_NoV(int side_px, int x, int y) {
+double sphere_nov(int side_px, int x, int y) {
     const Camera camera;
     const double half = std::tan(0.5 * glm::radians(double(camera.fov_deg)));
     const auto screen = [&](int i) { return half * (2.0 * (i + 0.5) / side_px - 1.0); };
@@ -133,14 +133,14 @@ Image band_of(const Image& mask, double low, double high) {
     Image band = mask;
     for (int y = 0; y < mask.height; ++y)
         for (int x = 0; x < mask.width; ++x) {
-            const double NoV = sphere_NoV(mask.width, x, y);
+            const double NoV = sphere_nov(mask.width, x, y);
             if (NoV < low || NoV > high) set_texel(band, x, y, 0, 0.0f);
         }
     return band;
 }
 
 /// The error of a picture of the sphere in each band.
-Json errors_by_NoV(const Image& picture, const Truth& truth) {
+Json errors_by_nov(const Image& picture, const Truth& truth) {
     Json list = Json::array();
     for (std::size_t i = 0; i + 1 < kBands.size(); ++i)
         list.push_back(
@@ -183,7 +183,7 @@ void measure_case(Shop& shop, const Case& each) {
                               {"max", error.max},
                               {"reference_half_width", truth.half_width},
                               {"reference_samples", truth.samples}});
-        if (each.mesh == "sphere") shop.cases.back()["rms_by_NoV"] = errors_by_NoV(picture, truth);
+        if (each.mesh == "sphere") shop.cases.back()["rms_by_NoV"] = errors_by_nov(picture, truth);
     }
 }
 
@@ -202,6 +202,7 @@ std::vector<double> frame_ms(const std::vector<Way>& list, SceneLoader& loader, 
     set_material(scene, {.material = "metal", .roughness = 0.4f});
     const TargetHandle target = renderer.make_target(glm::ivec2(512));
     std::vector<std::function<void()>> actions;
+    actions.reserve(list.size());
     for (const Way& way : list)
         actions.push_back([&] {
             way.draw(renderer, scene, *target);

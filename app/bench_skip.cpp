@@ -50,11 +50,11 @@ struct CommandCase {
     std::string arguments;
 };
 
-std::vector<CommandCase> command_cases() {
+std::vector<CommandCase> command_cases(const BenchContext& context) {
     const std::string render = "render ";
     const std::string compare = "compare ";
     const std::string views = " --env ";
-    return {
+    std::vector<CommandCase> cases{
         {"uniform plastic", render + "plastic-glossy-red --env sky"},
         {"full metal", render + "gold --env sky"},
         {"textured, no normal map", render + "terrazzo --env sky"},
@@ -64,11 +64,17 @@ std::vector<CommandCase> command_cases() {
         {"4 views", compare + "worn-paint" + views + "studio sky sunset night"},
         {"9 views", compare + "worn-paint gold porcelain" + views + "studio sky sunset"},
         {"14 views", compare + "worn-paint gold" + views + "studio sky sunset overcast night furnace test"}};
+    if (context.preset.empty()) return cases;
+    const std::string mesh = context.mesh.empty() ? "" : " --mesh " + quoted(utf8_to_path(context.mesh));
+    cases.push_back({path_to_utf8(utf8_to_path(context.preset).filename()),
+                     render + quoted(utf8_to_path(context.preset)) + " --env studio" + mesh});
+    cases.push_back({"the same without maps", render + "- --env studio" + mesh});
+    return cases;
 }
 
 struct CommandRun {
     double wall_ms = 0.0, cpu_ms = 0.0, peak_mib = 0.0;
-    Json work;
+    std::string work;  ///< the ledger, as JSON
 };
 
 CommandRun run_once(const CommandCase& each, bool skip, const fs::path& folder) {
@@ -89,7 +95,7 @@ CommandRun run_once(const CommandCase& each, bool skip, const fs::path& folder) 
                                   reinterpret_cast<const char*>(bytes.data() + bytes.size()));
     run.cpu_ms = 1e3 * json.at("cpu_s").get<double>();
     run.peak_mib = json.at("peak_memory_bytes").get<double>() / 1048576.0;
-    run.work = json.at("work");
+    run.work = json.at("work").dump();
     return run;
 }
 
@@ -114,10 +120,10 @@ Json summary(const std::vector<CommandRun>& runs) {
     return {{"wall_ms", median(wall)},
             {"cpu_ms", median(cpu)},
             {"peak_mib", median(peak)},
-            {"work", runs.front().work}};
+            {"work", Json::parse(runs.front().work)}};
 }
 
-Json bench_commands(int repetitions) {
+Json bench_commands(const BenchContext& context, int repetitions) {
     const TemporaryFolder folder("patina-skip");
     const char* shared_cache = std::getenv("XDG_CACHE_HOME");  // where the driver keeps compiled shaders, too
     const std::string before = shared_cache ? shared_cache : "";
@@ -126,7 +132,7 @@ Json bench_commands(int repetitions) {
     Json rows = Json::array();
     std::printf("%-28s %9s %9s %6s  %9s %9s  %s\n", "picture, whole command", "CPU ms", "no skip", "ratio",
                 "peak MiB", "no skip", "largest step");
-    for (const CommandCase& each : command_cases()) {
+    for (const CommandCase& each : command_cases(context)) {
         std::array<std::vector<CommandRun>, 2> runs;
         for (int i = 0; i < repetitions; ++i)
             for (const int which : {i % 2, 1 - i % 2})
@@ -193,6 +199,33 @@ std::vector<Step> steps() {
         {"light rotation, 9 views of 300", {"gold", "worn-paint", "porcelain"}, three, third, turn_light}};
 }
 
+struct StepViews {
+    std::vector<Scene> scenes;
+    std::vector<TargetHandle> targets;
+};
+
+StepViews views_of(const Step& step, SceneLoader& loader, Renderer& renderer) {
+    StepViews views;
+    for (const std::string& preset : step.presets)
+        for (const std::string& light : step.lights) {
+            views.scenes.push_back(loader.scene(preset, SceneOptions{.size_px = glm::ivec2(step.side_px)}));
+            views.scenes.back().environment = loader.environment(light);
+            views.targets.push_back(renderer.make_target(glm::ivec2(step.side_px)));
+        }
+    return views;
+}
+
+/// Of three, after one that compiles and may rasterise.
+double fastest_ms(const Step& step, StepViews& views, Renderer& renderer) {
+    double fastest = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 4; ++k) {
+        for (Scene& scene : views.scenes) step.change(scene);
+        const double ms = milliseconds([&] { draw_all_views(renderer, views.scenes, views.targets); });
+        if (k > 0) fastest = std::min(fastest, ms);
+    }
+    return fastest;
+}
+
 Json bench_steps(Stage& stage, const BenchContext& context) {
     SceneLoader loader(
         stage.renderer, context.registry,
@@ -200,24 +233,12 @@ Json bench_steps(Stage& stage, const BenchContext& context) {
     Json rows = Json::array();
     std::printf("\n%-34s %9s %9s %6s\n", "one step", "ms", "no skip", "ratio");
     for (const Step& step : steps()) {
-        std::vector<Scene> scenes;
-        std::vector<TargetHandle> targets;
-        for (const std::string& preset : step.presets)
-            for (const std::string& light : step.lights) {
-                scenes.push_back(loader.scene(preset, SceneOptions{.size_px = glm::ivec2(step.side_px)}));
-                scenes.back().environment = loader.environment(light);
-                targets.push_back(stage.renderer.make_target(glm::ivec2(step.side_px)));
-            }
+        StepViews views = views_of(step, loader, stage.renderer);
         std::array<std::vector<double>, 2> ms;
         for (int i = 0; i < context.repetitions(); ++i)
             for (const int which : {i % 2, 1 - i % 2}) {
                 stage.renderer.set_reuse(which == 0);
-                std::vector<double> own;
-                for (int k = 0; k < 4; ++k) {  // the first compiles and may rasterise
-                    for (Scene& scene : scenes) step.change(scene);
-                    own.push_back(milliseconds([&] { draw_all_views(stage.renderer, scenes, targets); }));
-                }
-                ms[std::size_t(which)].push_back(*std::min_element(own.begin() + 1, own.end()));
+                ms[std::size_t(which)].push_back(fastest_ms(step, views, stage.renderer));
             }
         const double skip = median(ms[0]), all = median(ms[1]);
         std::printf("%-34s %9.1f %9.1f %6.2f\n", step.name.c_str(), skip, all, skip / all);
@@ -225,6 +246,49 @@ Json bench_steps(Stage& stage, const BenchContext& context) {
     }
     stage.renderer.set_reuse(true);
     return rows;
+}
+
+/// What sharing costs and saves, from the steps above.
+Json shared_views(const Json& steps) {
+    const auto ms = [&](const char* name, const char* key) {
+        for (const Json& row : steps)
+            if (row.at("name") == name) return row.at(key).get<double>();
+        return 0.0;
+    };
+    const double orbit = ms("orbit, 4 views", "skip_ms");
+    const double nine = ms("light rotation, 9 views of 300", "skip_ms");
+    const std::array<std::pair<const char*, double>, 4> rows{
+        {{"4 views rasterised once and shaded / shaded alone",
+          orbit / ms("light rotation, 4 views", "skip_ms")},
+         {"4 views rasterised once and shaded / 4 independent", orbit / ms("orbit, 4 views", "no_skip_ms")},
+         {"light of 9 views turned / of one of them", nine / ms("light rotation, 1 view of 300", "skip_ms")},
+         {"light of 9 views turned / of one as large as all",
+          nine / ms("light rotation, 1 view of 900", "skip_ms")}}};
+    Json json = Json::array();
+    std::printf("\n");
+    for (const auto& [name, ratio] : rows) {
+        std::printf("%-56s %6.2f\n", name, ratio);
+        json.push_back({{"name", name}, {"ratio", ratio}});
+    }
+    return json;
+}
+
+// --- a preset's maps, from their files to the GPU ---
+
+Json bench_maps(Stage& stage, const BenchContext& context) {
+    std::array<std::vector<double>, 2> ms;
+    const auto load = [&](bool skip) {
+        SceneLoader loader(stage.renderer, context.registry, {.skip = skip});
+        loader.mesh(context.mesh.empty() ? "sphere" : context.mesh, true);
+        const SceneOptions options{.mesh = context.mesh.empty() ? "sphere" : context.mesh,
+                                   .size_px = glm::ivec2(kSidePx)};
+        return milliseconds([&] { loader.scene(context.preset, options); });
+    };
+    for (int i = 0; i < context.repetitions(); ++i)
+        for (const int which : {i % 2, 1 - i % 2}) ms[std::size_t(which)].push_back(load(which == 0));
+    const double skip = median(ms[0]), all = median(ms[1]);
+    std::printf("\n%-34s %9.1f %9.1f %6.2f\n", "its maps, from file to GPU", skip, all, skip / all);
+    return {{"skip_ms", skip}, {"no_skip_ms", all}, {"ratio", skip / all}};
 }
 
 // --- another environment, until the picture under it is there ---
@@ -236,37 +300,45 @@ Json bench_switch(Stage& stage, const BenchContext& context) {
         return SceneLoader::Options{
             .parallel_for = stage.jobs.parallel_for(), .cache = {.folder = cache}, .skip = skip};
     };
-    const auto show = [&](SceneLoader& loader, Scene scene) {
-        return milliseconds([&] {
-            scene.environment = loader.environment(environment, loader.needed_light(scene));
+    struct Shown {
+        std::vector<double> light, all;  ///< ms until the light is on the GPU, and until it is seen
+    };
+    std::array<std::array<Shown, 3>, 2> shown;
+    const auto show = [&](SceneLoader& loader, Scene scene, Shown& times) {
+        double light = 0.0;
+        times.all.push_back(milliseconds([&] {
+            light = milliseconds(
+                [&] { scene.environment = loader.environment(environment, loader.needed_light(scene)); });
             stage.renderer.draw(scene, *target);
             stage.renderer.read_display(*target);
-        });
+        }));
+        times.light.push_back(light);
     };
-    std::array<std::array<std::vector<double>, 3>, 2> ms;
     std::vector<double> decode;
     for (int i = 0; i < context.repetitions(); ++i) {
         decode.push_back(milliseconds([&] { load_environment(context.registry, environment); }));
         for (const int which : {0, 1}) {
             const TemporaryFolder cache("patina-skip");
-            auto& own = ms[std::size_t(which)];
+            auto& own = shown[std::size_t(which)];
             for (const std::size_t from : {0u, 1u}) {  // nowhere, disk
                 SceneLoader loader(stage.renderer, context.registry, options(which == 0, cache.path()));
                 const Scene scene = loader.scene("plastic-glossy-red", SceneOptions{});
-                own[from].push_back(show(loader, scene));
-                if (from == 1) own[2].push_back(show(loader, scene));  // memory
+                show(loader, scene, own[from]);
+                if (from == 1) show(loader, scene, own[2]);  // memory
             }
         }
     }
     constexpr std::array names{"cold", "disk cache", "memory"};
     Json json{{"environment", environment}, {"decode_ms", median(decode)}, {"cases", Json::array()}};
-    std::printf("\n%-34s %9s %9s   (decoding alone %.1f ms)\n",
-                ("environment " + path_to_utf8(utf8_to_path(environment).filename())).c_str(), "ms",
-                "no skip", median(decode));
+    std::printf("\n%-34s %9s %9s %9s   (decoding alone %.1f ms)\n",
+                ("environment " + path_to_utf8(utf8_to_path(environment).filename())).c_str(), "light ms",
+                "seen ms", "no skip", median(decode));
     for (std::size_t from = 0; from < names.size(); ++from) {
-        const double skip = median(ms[0][from]), all = median(ms[1][from]);
-        std::printf("%-34s %9.1f %9.1f\n", names[from], skip, all);
-        json["cases"].push_back({{"name", names[from]}, {"skip_ms", skip}, {"no_skip_ms", all}});
+        const double light = median(shown[0][from].light);
+        const double skip = median(shown[0][from].all), all = median(shown[1][from].all);
+        std::printf("%-34s %9.1f %9.1f %9.1f\n", names[from], light, skip, all);
+        json["cases"].push_back(
+            {{"name", names[from]}, {"light_ready_ms", light}, {"skip_ms", skip}, {"no_skip_ms", all}});
     }
     return json;
 }
@@ -274,10 +346,12 @@ Json bench_switch(Stage& stage, const BenchContext& context) {
 }  // namespace
 
 Json bench_skip(const BenchContext& context) {
-    Json json{{"renderer", ""}, {"commands", bench_commands(context.quick ? 1 : 3)}};
+    Json json{{"renderer", ""}, {"commands", bench_commands(context, context.quick ? 1 : 3)}};
     Stage stage;
     json["renderer"] = stage.context.description();
     json["steps"] = bench_steps(stage, context);
+    json["shared_views"] = shared_views(json["steps"]);
+    if (!context.preset.empty()) json["maps"] = bench_maps(stage, context);
     json["environment_switch"] = bench_switch(stage, context);
     return json;
 }

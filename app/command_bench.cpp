@@ -51,6 +51,8 @@ std::vector<const Benchmark*> chosen(const std::vector<std::string>& names) {
 int run_bench(const BenchArgs& args, const Registry& registry) {
     BenchContext context{.registry = registry,
                          .environments = {},
+                         .preset = args.preset,
+                         .mesh = args.mesh,
                          .quick = args.quick,
                          .cases = args.cases,
                          .seed = args.seed,

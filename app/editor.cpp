@@ -214,7 +214,6 @@ void Loop::frame() {
     if (drew_s_) pace_.took(shown_, window_.time_s() - *std::exchange(drew_s_, std::nullopt));
     ++renderer_.work().frames_shown;
     if (shown && !first_lit_frame_) first_lit_frame_ = mark_process();
-    is_shown_ = is_shown_ || shown == target_;
     if (screenshot) save_image(*screenshot, picture);
 }
 

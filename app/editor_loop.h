@@ -89,7 +89,6 @@ private:
     std::optional<double> drew_s_;  ///< when this frame's picture was begun
     Scene drawn_;  ///< what the picture was drawn from: it is drawn again when any of this differs
     bool has_drawn_ = false;
-    bool is_shown_ = false;               ///< some picture has been on the screen
     std::vector<DrawnView> sheet_views_;  ///< by the sheet's views
     std::vector<int> sheet_seen_;         ///< those that the last frame showed
     std::uint64_t views_ = 0, turns_ = 0;

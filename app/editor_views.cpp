@@ -97,7 +97,7 @@ void Loop::draw_view(glm::ivec2 size_px) {
     if (changed) changed_s_ = now_s;
     if (!changed && !(wants_refining() && now_s - changed_s_ >= kStillSeconds)) return;
     // The very first picture is looked at before another one's shaders are compiled.
-    if (has_drawn_ && !is_shown_) return;
+    if (has_drawn_ && !first_lit_frame_) return;
     const Pace quality = changed && has_drawn_ ? pace_.while_moving() : Pace::Good;
     const glm::ivec2 pixels = quality == Pace::Rough ? (size_px + 1) / 2 : size_px;
     TargetHandle& target = targets_[int(quality)];

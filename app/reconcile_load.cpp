@@ -77,9 +77,8 @@ ReadyMap load_map(const Registry& registry, const MapRequest& request) {
     ready.file_bytes = ignored ? 0 : bytes;
     const bool linear_color = request.kind == MapKind::Color && request.color_space == ColorSpace::Linear;
     ready.thumbnail = small_picture(loaded.image, kThumbnailPx, linear_color);
-    auto levels =
-        std::make_shared<MapLevels>(make_map_levels(loaded.image, request.kind, request.color_space));
-    leave_out_finer(*levels, request.finest_side);
+    auto levels = std::make_shared<MapLevels>(
+        make_map_levels(loaded.image, request.kind, request.color_space, request.finest_side));
     ready.is_whole = levels->levels[0].width == ready.width && levels->levels[0].height == ready.height;
     ready.ranges = channel_ranges(*levels);
     if (request.finest_side > 0) keep_one_texel_of_constant(*levels, ready.ranges);

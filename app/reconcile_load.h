@@ -19,7 +19,7 @@ struct MapRequest {
     std::string file;  ///< full path or what else the preset named
     MapKind kind = MapKind::Data;
     ColorSpace color_space = ColorSpace::Linear;
-    int finest_side = 0;  ///< as leave_out_finer takes it
+    int finest_side = 0;  ///< as make_map_levels takes it
 };
 /// How a slot's map is read, with all detail; the kind of its mipmaps follows from the slot.
 MapRequest map_request(const Material& material, MapSlot slot);

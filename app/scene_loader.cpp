@@ -115,8 +115,7 @@ const SceneLoader::Map& SceneLoader::map(const MapSource& source, const std::str
         loaded.image = make_placeholder_map();
     }
     for (const std::string& note : loaded.notes) options_.note(name + ": " + note);
-    MapLevels levels = make_map_levels(loaded.image, source.kind, source.color_space);
-    leave_out_finer(levels, side);
+    MapLevels levels = make_map_levels(loaded.image, source.kind, source.color_space, side);
     map.ranges = channel_ranges(levels);
     if (options_.skip) keep_one_texel_of_constant(levels, map.ranges);
     count_map(renderer_.work(), loaded.image, levels);

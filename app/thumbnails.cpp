@@ -3,6 +3,7 @@
 #include "app/document.h"
 #include "app/reconcile_light.h"
 #include "app/reconcile_load.h"
+#include "app/stats.h"
 #include "app/watch.h"
 #include "materials/material_io.h"
 #include "materials/params.h"
@@ -47,6 +48,7 @@ struct Found {
     Material material;
     std::array<std::optional<ReadyMap>, kMapSlots> maps;
     std::shared_ptr<const PreparedMesh> mesh;
+    WorkLedger work;
 };
 
 using Key = std::pair<Thumbnails::Kind, std::string>;
@@ -63,6 +65,7 @@ bool take_from_cache(Found& found) {
     if (!fs::exists(found.cache_file, ignored)) return false;
     try {
         found.picture = load_image(found.cache_file).image;
+        skip(found.work, "drawing a thumbnail", "it lay in the disk cache");
         return true;
     } catch (const std::exception&) {
         return false;  // made again, and written over
@@ -85,6 +88,7 @@ void find_preset_picture(const Registry& registry, const fs::path& folder, const
         try {
             request.finest_side = kMapPx;
             found.maps[i] = load_map(registry, request);
+            add(found.work, found.maps[i]->work);
         } catch (const std::exception&) {
             found.maps[i]
                 .reset();  // shown by its value alone; the editor says what is missing once it is opened
@@ -95,14 +99,18 @@ void find_preset_picture(const Registry& registry, const fs::path& folder, const
 void find_environment_picture(const Registry& registry, const fs::path& folder, const std::string& id,
                               Found& found) {
     found.cache_file = cache_file(folder, "environment\n" + id + "\n" + describe(stamp_of(utf8_to_path(id))));
-    if (!take_from_cache(found)) found.picture = small_panorama(load_environment(registry, id), kSidePx);
+    if (take_from_cache(found)) return;
+    found.picture = small_panorama(load_environment(registry, id), kSidePx);
+    ++found.work.environments_decoded;
 }
 
 void find_mesh_picture(const Registry& registry, const fs::path& folder, const std::string& id,
                        Found& found) {
     found.cache_file = cache_file(folder, "mesh\n" + id + "\n" + describe(stamp_of(utf8_to_path(id))));
-    if (!take_from_cache(found))
-        found.mesh = std::make_shared<PreparedMesh>(prepare_mesh(load_mesh_part(registry, id)));
+    if (take_from_cache(found)) return;
+    const Mesh mesh = load_mesh_part(registry, id);
+    count_mesh(found.work, mesh, false);
+    found.mesh = std::make_shared<PreparedMesh>(prepare_mesh(mesh));
 }
 
 void write_to_cache(const fs::path& file, const Image& picture) {
@@ -175,6 +183,8 @@ void Thumbnails::State::start(const Key& key) {
                 break;
             case Kind::Picture: {
                 const Image image = import_image(registry, utf8_to_path(id)).image;
+                ++found->work.maps_decoded;
+                found->work.map_bytes_decoded += image.bytes.size();
                 found->picture = small_picture(image, kThumbnailPx, image.type == PixelType::F32);
                 break;
             }
@@ -183,6 +193,7 @@ void Thumbnails::State::start(const Key& key) {
         if (found->picture && !found->cache_file.empty() && !fs::exists(found->cache_file, ignored))
             write_to_cache(found->cache_file, *found->picture);
         return [this, key, found] {
+            add(renderer.work(), found->work);
             if (found->picture)
                 arrived(key, *found->picture);
             else
@@ -199,9 +210,14 @@ void Thumbnails::State::start_light() {
             auto lit = get_light(registry, order, options.bake_settings, options.bakes,
                                  {jobs.parallel_for(), context.progress, context.stop});
             if (!lit) return {};
+            WorkLedger work;
+            count_light(work, order, *lit);
             Mesh shape = load_mesh_part(registry, kShape);
             make_tangents(shape);
-            return [this, shape = std::make_shared<PreparedMesh>(prepare_mesh(shape)), ready = lit->light] {
+            count_mesh(work, shape, true);
+            return [this, shape = std::make_shared<PreparedMesh>(prepare_mesh(shape)), ready = lit->light,
+                    work = std::move(work)] {
+                add(renderer.work(), work);
                 light = Renderer::begin_upload(ready).finish();
                 sphere = Renderer::begin_upload(shape).finish();
             };

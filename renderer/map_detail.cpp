@@ -71,12 +71,4 @@ int visible_map_side(float stretch, glm::vec2 map_scale, const Sight& sight) {
     return int(std::bit_ceil(unsigned(std::max(std::ceil(texels), float(kSmallestSide)))));
 }
 
-void leave_out_finer(MapLevels& map, int finest_side) {
-    if (finest_side <= 0) return;
-    auto first = map.levels.begin();
-    while (first + 1 != map.levels.end() && std::min((first + 1)->width, (first + 1)->height) >= finest_side)
-        ++first;
-    map.levels.erase(map.levels.begin(), first);
-}
-
 }  // namespace patina

@@ -4,7 +4,6 @@
 
 #include "renderer/core/camera.h"
 #include "renderer/core/mesh.h"
-#include "renderer/map_levels.h"
 
 #include <glm/vec2.hpp>
 
@@ -25,8 +24,5 @@ struct Sight {
 /// The surface that is nearest is taken to face the camera. map_scale: how often the map repeats in a unit of
 /// uv.
 int visible_map_side(float stretch, glm::vec2 map_scale, const Sight& sight);
-
-/// Of the levels whose width and height are at least that, keeps only the smallest. 0: keeps all.
-void leave_out_finer(MapLevels& map, int finest_side);
 
 }  // namespace patina

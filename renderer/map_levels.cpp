@@ -195,7 +195,8 @@ public:
             for (std::size_t i = 0; i < reduced_.size(); ++i) sums_[k][i] += weight * reduced_[i];
         }
         if (input_++ != down_.last_input(output_)) return;
-        encode_row(sums_[0], meaning_, target_, output_++);
+        if (!target_.empty()) encode_row(sums_[0], meaning_, target_, output_);
+        ++output_;
         next(sums_[0].data());
         std::swap(sums_[0], sums_[1]);
         std::fill(sums_[1].begin(), sums_[1].end(), 0.0f);
@@ -238,17 +239,31 @@ void push_down(std::vector<Reducer>& chain, std::size_t level, const float* row)
     chain[level].push(row, [&](const float* finished) { push_down(chain, level + 1, finished); });
 }
 
-void fill_chain(std::vector<Image>& levels, Meaning meaning) {
+/// Nothing but its shape.
+Image without_texels(int width, int height, const Image& like) {
+    return {.width = width, .height = height, .channels = like.channels, .type = like.type, .bytes = {}};
+}
+
+bool is_too_fine(int width, int height, int finest_side) {
+    return finest_side > 0 && (width > 1 || height > 1) &&
+           std::min(std::max(width / 2, 1), std::max(height / 2, 1)) >= finest_side;
+}
+
+/// row_at(y): of the finest level, as it is sampled. Levels that are finer than need be get no texels.
+template <class RowAt>
+void fill_chain(std::vector<Image>& levels, Meaning meaning, int finest_side, const RowAt& row_at) {
     for (int w = levels[0].width, h = levels[0].height; w > 1 || h > 1;) {
         w = std::max(w / 2, 1);
         h = std::max(h / 2, 1);
-        levels.push_back(make_image(w, h, levels[0].channels, levels[0].type));
+        levels.push_back(is_too_fine(w, h, finest_side)
+                             ? without_texels(w, h, levels[0])
+                             : make_image(w, h, levels[0].channels, levels[0].type));
     }
     std::vector<Reducer> chain;
     for (std::size_t i = 1; i < levels.size(); ++i) chain.emplace_back(levels[i - 1], meaning, levels[i]);
     std::vector<float> row(std::size_t(levels[0].width) * levels[0].channels);
     for (int y = 0; y < levels[0].height; ++y) {
-        decode_row(levels[0], y, meaning, row.data());
+        row_at(y, row.data());
         push_down(chain, 0, row.data());
     }
 }
@@ -309,8 +324,12 @@ void make_finite(Image& image) {
 
 /// There is no 16-bit sRGB texture format; 16 linear bits are fine enough to hold the decoded light.
 void decode_16_bits(Image& image) {
-    std::vector<std::uint16_t> light(65536);
-    for (int i = 0; i < 65536; ++i) light[i] = rounded<std::uint16_t>(srgb_to_linear(float(i) / 65535.0f));
+    static const std::vector<std::uint16_t> light = [] {
+        std::vector<std::uint16_t> codes(65536);
+        for (int i = 0; i < 65536; ++i)
+            codes[i] = rounded<std::uint16_t>(srgb_to_linear(float(i) / 65535.0f));
+        return codes;
+    }();
     auto* values = row_of<std::uint16_t>(image, 0);
     const std::size_t count = image.bytes.size() / sizeof(std::uint16_t);
     const bool has_alpha = image.channels % 2 == 0;
@@ -318,26 +337,70 @@ void decode_16_bits(Image& image) {
         if (!has_alpha || int(i % image.channels) != image.channels - 1) values[i] = light[values[i]];
 }
 
-}  // namespace
-
-MapLevels make_map_levels(const Image& image, MapKind kind, ColorSpace color_space) {
-    MapLevels result;
-    const bool encoded = kind == MapKind::Color && color_space == ColorSpace::Srgb;
-    result.srgb = encoded && image.type == PixelType::U8;
-    Image top = image;
+/// Of rows or the whole: as it goes into the finest level.
+Image as_sampled(Image top, MapKind kind, bool encoded) {
+    const int channels = top.channels;
     make_finite(top);
-    if (encoded && image.type == PixelType::U16) decode_16_bits(top);
-    if (kind == MapKind::Normal && top.channels == 2)
+    if (encoded && top.type == PixelType::U16) decode_16_bits(top);
+    const bool is_srgb = encoded && top.type == PixelType::U8;
+    if (kind == MapKind::Normal && channels == 2)
         top = with_third_axis(top);
-    else if (top.channels == 3 || (top.channels < 3 && (result.srgb || kind == MapKind::Normal)))
+    else if (channels == 3 || (channels < 3 && (is_srgb || kind == MapKind::Normal)))
         top = spread_to_four(top);
-    if (kind == MapKind::Normal && image.channels == 4) clear_alpha(top);
-    result.levels.push_back(std::move(top));
+    if (kind == MapKind::Normal && channels == 4) clear_alpha(top);
+    return top;
+}
+
+Image one_row(const Image& image, int y) {
+    Image row = make_image(image.width, 1, image.channels, image.type);
+    std::memcpy(row.bytes.data(), image.bytes.data() + std::size_t(y) * row.bytes.size(), row.bytes.size());
+    return row;
+}
+
+/// 8 bits of three equal channels.
+bool is_grey(const Image& image) {
+    if (image.channels != 3 || image.type != PixelType::U8) return false;
+    const std::byte* const end = image.bytes.data() + image.bytes.size();
+    for (const std::byte* at = image.bytes.data(); at != end; at += 3)
+        if (at[0] != at[1] || at[0] != at[2]) return false;
+    return true;
+}
+
+Image first_channel(const Image& image) {
+    Image grey = make_image(image.width, image.height, 1, image.type);
+    for (std::size_t i = 0; i < grey.bytes.size(); ++i)
+        grey.bytes[i] = image.bytes[i * std::size_t(image.channels)];
+    return grey;
+}
+
+MapLevels levels_of(const Image& image, MapKind kind, bool encoded, int finest_side) {
+    MapLevels result;
+    result.srgb = encoded && image.type == PixelType::U8;
     const Meaning meaning = kind == MapKind::Normal ? Meaning::Direction
                             : result.srgb           ? Meaning::SrgbLight
                                                     : Meaning::Number;
-    fill_chain(result.levels, meaning);
+    if (is_too_fine(image.width, image.height, finest_side)) {
+        const Image first = as_sampled(one_row(image, 0), kind, encoded);
+        result.levels.push_back(without_texels(image.width, image.height, first));
+        fill_chain(result.levels, meaning, finest_side, [&](int y, float* out) {
+            decode_row(as_sampled(one_row(image, y), kind, encoded), 0, meaning, out);
+        });
+        std::erase_if(result.levels, [](const Image& level) { return level.empty(); });
+    } else {
+        result.levels.push_back(as_sampled(image, kind, encoded));
+        fill_chain(result.levels, meaning, finest_side,
+                   [&](int y, float* out) { decode_row(result.levels[0], y, meaning, out); });
+    }
     return result;
+}
+
+}  // namespace
+
+MapLevels make_map_levels(const Image& image, MapKind kind, ColorSpace color_space, int finest_side) {
+    const bool encoded = kind == MapKind::Color && color_space == ColorSpace::Srgb;
+    if (finest_side > 0 && kind == MapKind::Data && is_grey(image))
+        return levels_of(first_channel(image), kind, encoded, finest_side);
+    return levels_of(image, kind, encoded, finest_side);
 }
 
 MapKind map_kind(MapSlot slot) {

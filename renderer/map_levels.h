@@ -24,7 +24,10 @@ enum class MapKind { Color, Data, Normal };
 /// full size). Any size. color_space matters for Color in U8 and U16 only: floating-point pictures hold
 /// linear light, whatever they are called. Grey stays one channel. Numbers that are not finite become 0,
 /// those beyond a half float's range its limit.
-MapLevels make_map_levels(const Image& image, MapKind kind, ColorSpace color_space);
+///
+/// finest_side: of the levels whose width and height are at least that only the smallest is made; 0: all are.
+/// What is made is the same to the byte, but that numbers that are grey have one channel then.
+MapLevels make_map_levels(const Image& image, MapKind kind, ColorSpace color_space, int finest_side = 0);
 
 /// The kind of map a slot takes.
 MapKind map_kind(MapSlot slot);

@@ -15,7 +15,7 @@ namespace patina {
 namespace {
 
 constexpr int kReplicates = ReferenceTarget::kReplicates;
-constexpr int kMostAtOnce = 64;  ///< points of a slice, each of which sees the pixel's area at one place
+constexpr int kMostAtOnce = 16;  ///< points of a slice, each of which sees the pixel's area at one place
 constexpr int kMostOfMiddle = blocks::kMostPoints;
 constexpr float kWeightOfOne = 1.0f / 4096.0f;
 constexpr double kFirstTolerance = 0.02;  ///< to which all pixels are known before any is known better

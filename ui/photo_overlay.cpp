@@ -199,26 +199,19 @@ void draw_photo(PanelContext& context, int view, const Rect& rect) {
     }
 }
 
-void draw_photo_rows(PanelContext& context, int view) {
-    heading("Photo");
-    const float full = ImGui::GetContentRegionAvail().x;
-    Photo* photo = photo_of(context, view);
-    if (!photo) {
-        text_wrapped(
-            "Put a photo of the real thing, taken under this light, beside the render: choose it here, "
-            "or drop it on the view.",
-            color::kMuted, Face::Small);
-        if (button(context, "compare.photo.choose", "Choose a photo…",
-                   "PNG, JPEG, TIFF or EXR; the camera's data is read.", {.width = full}))
-            open_browser(context, BrowserPurpose::ChoosePhoto);
-        return;
-    }
-    const SheetCell& cell = cell_of(context, view);
-    text_line(context, std::string(file_name_of(photo->file)));
-    if (!cell.photo_about.empty()) text_line(context, cell.photo_about, color::kMuted);
-    if (!cell.residual.empty()) text_line(context, cell.residual, color::kAccent);
-    if (cell.hints)
-        for (const std::string& hint : *cell.hints) text_wrapped(hint, color::kText, Face::Small);
+namespace {
+
+void draw_photo_choice(PanelContext& context, float full) {
+    text_wrapped(
+        "Put a photo of the real thing, taken under this light, beside the render: choose it here, "
+        "or drop it on the view.",
+        color::kMuted, Face::Small);
+    if (button(context, "compare.photo.choose", "Choose a photo…",
+               "PNG, JPEG, TIFF or EXR; the camera's data is read.", {.width = full}))
+        open_browser(context, BrowserPurpose::ChoosePhoto);
+}
+
+void draw_photo_numbers(PanelContext& context, Photo& photo) {
     number_row(context,
                {.name = "compare.photo.opacity",
                 .label = "Opacity",
@@ -227,7 +220,7 @@ void draw_photo_rows(PanelContext& context, int view) {
                 .saved = 1.0f,
                 .format = "%.2f",
                 .step = 0.01f},
-               photo->opacity);
+               photo.opacity);
     number_row(context,
                {.name = "compare.photo.wipe",
                 .label = "Wipe",
@@ -245,10 +238,13 @@ void draw_photo_rows(PanelContext& context, int view) {
                 .max = 6.0f,
                 .hard_min = -30.0f,
                 .hard_max = 30.0f,
-                .saved = photo->exposure_ev,
+                .saved = photo.exposure_ev,
                 .format = "%+.2f",
                 .step = 0.05f},
-               photo->exposure_ev);
+               photo.exposure_ev);
+}
+
+void draw_photo_tools(PanelContext& context, Photo& photo, float full) {
     const float half = (full - ImGui::GetStyle().ItemSpacing.x) / 2;
     for (std::size_t i = 0; i < kTools.size(); ++i) {
         if (i % 2 == 1) ImGui::SameLine();
@@ -256,10 +252,30 @@ void draw_photo_rows(PanelContext& context, int view) {
         const bool on = context.ui.photo_tool == row.tool;
         if (button(context, row.name, on ? "Done" : row.text, row.tooltip,
                    {.emphasis = on ? Emphasis::Primary : Emphasis::Normal, .width = half}))
-            take_tool(context, *photo, row.tool);
+            take_tool(context, photo, row.tool);
     }
     for (const ToolRow& row : kTools)
         if (row.tool == context.ui.photo_tool) text_wrapped(row.hint, color::kAccent, Face::Small);
+}
+
+}  // namespace
+
+void draw_photo_rows(PanelContext& context, int view) {
+    heading("Photo");
+    const float full = ImGui::GetContentRegionAvail().x;
+    Photo* photo = photo_of(context, view);
+    if (!photo) {
+        draw_photo_choice(context, full);
+        return;
+    }
+    const SheetCell& cell = cell_of(context, view);
+    text_line(context, std::string(file_name_of(photo->file)));
+    if (!cell.photo_about.empty()) text_line(context, cell.photo_about, color::kMuted);
+    if (!cell.residual.empty()) text_line(context, cell.residual, color::kAccent);
+    if (cell.hints)
+        for (const std::string& hint : *cell.hints) text_wrapped(hint, color::kText, Face::Small);
+    draw_photo_numbers(context, *photo);
+    draw_photo_tools(context, *photo, full);
     draw_undoing(context, *photo, full);
     checkbox(context, "compare.photo.heat", "Show the difference",
              "CIEDE2000 in colours: black is equal, white is 20 and more, grey is not compared.",

@@ -1,8 +1,11 @@
 #include "renderer/map_detail.h"
 
+#include "renderer/map_levels.h"
+
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -65,12 +68,8 @@ TEST(VisibleMapSide, is_the_power_of_two_above_what_the_pixels_show) {
 }
 
 std::vector<int> widths_left(int width, int height, int finest_side) {
-    MapLevels map;
-    for (glm::ivec2 size(width, height);; size = glm::max(size / 2, 1)) {
-        map.levels.push_back(make_image(size.x, size.y, 1, PixelType::U8));
-        if (size == glm::ivec2(1)) break;
-    }
-    leave_out_finer(map, finest_side);
+    const MapLevels map = make_map_levels(make_image(width, height, 1, PixelType::U8), MapKind::Data,
+                                          ColorSpace::Linear, finest_side);
     std::vector<int> widths;
     for (const Image& level : map.levels) widths.push_back(level.width);
     return widths;
@@ -82,6 +81,52 @@ TEST(MapDetail, leaves_out_levels_that_are_finer_than_what_is_seen) {
     EXPECT_EQ(widths_left(64, 16, 16), (std::vector<int>{64, 32, 16, 8, 4, 2, 1}));
     EXPECT_EQ(widths_left(16, 16, 32), (std::vector<int>{16, 8, 4, 2, 1}));
     EXPECT_EQ(widths_left(8, 8, 0), (std::vector<int>{8, 4, 2, 1}));
+}
+
+/// Values that every filter tells apart.
+Image noisy(int channels, PixelType type) {
+    Image image = make_image(41, 30, channels, type);
+    std::uint32_t state = 7;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < channels; ++c) {
+                state = state * 1664525u + 1013904223u;
+                set_texel(image, x, y, c, float(state >> 8) / float(1 << 24));
+            }
+    return image;
+}
+
+TEST(MapDetail, levels_that_stay_are_the_same_whether_finer_ones_are_made_or_not) {
+    for (const PixelType type : {PixelType::U8, PixelType::U16, PixelType::F32})
+        for (int channels = 1; channels <= 4; ++channels)
+            for (const MapKind kind : {MapKind::Color, MapKind::Data, MapKind::Normal})
+                for (const int finest_side : {15, 7, 64}) {
+                    const Image image = noisy(channels, type);
+                    const MapLevels all = make_map_levels(image, kind, ColorSpace::Srgb);
+                    const MapLevels some = make_map_levels(image, kind, ColorSpace::Srgb, finest_side);
+                    ASSERT_LE(some.levels.size(), all.levels.size());
+                    EXPECT_EQ(some.levels.size(), finest_side == 64 ? 6u : finest_side == 15 ? 5u : 4u);
+                    EXPECT_EQ(some.srgb, all.srgb);
+                    const std::size_t left_out = all.levels.size() - some.levels.size();
+                    for (std::size_t i = 0; i < some.levels.size(); ++i) {
+                        EXPECT_EQ(some.levels[i].width, all.levels[i + left_out].width);
+                        EXPECT_EQ(some.levels[i].bytes, all.levels[i + left_out].bytes);
+                    }
+                }
+}
+
+TEST(MapDetail, grey_numbers_have_one_channel_where_detail_is_left_out) {
+    Image grey = make_image(8, 8, 3, PixelType::U8);
+    for (int i = 0; i < 64; ++i)
+        for (int c = 0; c < 3; ++c) grey.bytes[std::size_t(3 * i + c)] = std::byte(i);
+    const auto channels = [&](MapKind kind, int finest_side) {
+        return make_map_levels(grey, kind, ColorSpace::Linear, finest_side).levels[0].channels;
+    };
+    EXPECT_EQ(channels(MapKind::Data, 4), 1);
+    EXPECT_EQ(channels(MapKind::Data, 0), 4);
+    EXPECT_EQ(channels(MapKind::Color, 4), 4);
+    grey.bytes[1] = std::byte(9);
+    EXPECT_EQ(channels(MapKind::Data, 4), 4);
 }
 
 }  // namespace
