@@ -25,7 +25,8 @@ bool wants_radiance(const std::string& output) { return utf8_to_path(output).ext
 
 namespace {
 
-/// A video's frames lie in a folder of their own until ffmpeg has joined them.
+/// A video's frames lie in a folder of their own until ffmpeg has joined them. One that was left there
+/// because the program was ended is taken up again: frames that are up to date are kept.
 struct FrameFolder {
     fs::path path;
     explicit FrameFolder(const fs::path& video) : path(video) {
@@ -110,10 +111,10 @@ void render_video(const RenderArgs& args, const Registry& registry) {
                                  "instead (-o turn.png)");
     const FrameFolder folder(video);
     RenderArgs pictures = args;
-    pictures.up_to_date = false;
+    pictures.up_to_date = true;
     render_shots(pictures, registry, folder.path / "frame.png");
     const std::size_t digits = std::max<std::size_t>(3, std::to_string(args.turntable).size());
-    join_frames(folder.path / ("frame-%0" + std::to_string(digits) + "d.png"), video);
+    join_frames(folder.path / ("frame-%0" + std::to_string(digits) + "d.png"), args.turntable, video);
     say("wrote " + args.output);
 }
 

@@ -57,6 +57,17 @@ std::string values_text(const MaterialParam& param, const Material& material) {
     return text;
 }
 
+/// What a map of one channel says, in grey; the file may hold other maps in the other channels.
+Image only_channel(Image picture, Channel channel, bool invert) {
+    if (channel == Channel::A) return picture;  // a small picture has no alpha
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x) {
+            const float value = texel(picture, x, y, int(channel));
+            for (int c = 0; c < 3; ++c) set_texel(picture, x, y, c, invert ? 1.0f - value : value);
+        }
+    return picture;
+}
+
 std::string balance_text(const Photo& photo) {
     return fixed("%+.2f EV", double(photo.exposure_ev)) + ", white balance " +
            fixed("%.3f", double(photo.white_balance.x)) + " / " +
@@ -165,7 +176,9 @@ void ComparisonReport::add_photos(Report& report) const {
             {shot.material + ", " + shot.light,
              {{shot.photo->title + (camera.empty() ? "" : " – " + camera), shot.photo->picture},
               {"Render", shot.picture},
-              {"Difference, white is ΔE " + number(double(kHeatWhite)) + " and more", shot.photo->heat}}});
+              {"Difference: black is none, white ΔE " + number(double(kHeatWhite)) +
+                   " and more, grey not compared",
+               shot.photo->heat}}});
         std::vector<std::string> cells{shot.material, shot.light};
         std::ranges::copy(residual_cells(shot.photo->residual), std::back_inserter(cells));
         table.rows.push_back(std::move(cells));
@@ -181,8 +194,7 @@ void ComparisonReport::add_photos(Report& report) const {
     section.table = std::move(table);
     section.notes.emplace_back(
         "ΔE is CIEDE2000 between photo and render, values above white clipped; about 1 is just noticeable "
-        "side by "
-        "side. Luminance is how much brighter the render is than the photo on average.");
+        "side by side. Luminance is how much brighter the render is than the photo on average.");
     report.sections.push_back(std::move(section));
 }
 
@@ -207,20 +219,26 @@ void ComparisonReport::add_errors(Report& report) const {
 ReportSection ComparisonReport::material_section(const std::string& preset, const Material& material) const {
     ReportSection section{.heading = "Material: " + material.name};
     if (!material.source.empty()) section.paragraphs.push_back("Values from: " + material.source);
-    ReportTable table{.header = {"Parameter", "Value", "Map", "Size"}, .rows = {}};
+    ReportTable table{.header = {"Parameter", "Value"}, .rows = {}};
+    const bool has_maps = std::ranges::any_of(
+        material_slots(), [&](const MaterialSlot& row) { return !map_of(material, row.slot).map->empty(); });
+    if (has_maps) table.header.insert(table.header.end(), {"Map", "Size"});
     const fs::path file = preset == "-" ? fs::path{} : find_preset(preset);
     ReportPictureRow maps;
     for (const MaterialParam& param : kMaterialParams) {
-        std::vector<std::string> cells{std::string(param.label), values_text(param, material), "", ""};
-        if (param.slot) {
-            cells[2] = *map_of(material, *param.slot).map;
+        std::vector<std::string> cells{std::string(param.label), values_text(param, material)};
+        if (has_maps) cells.resize(4);
+        if (param.slot && has_maps) {
+            const ConstMapRef map = map_of(material, *param.slot);
+            cells[2] = *map.map;
             for (const MapSource& source : map_sources(material, file)) {
                 if (source.slot != *param.slot) continue;
                 const LoadedImage loaded = load_map(registry_, source);
                 cells[3] = std::to_string(loaded.image.width) + " × " + std::to_string(loaded.image.height);
+                Image picture = small_picture(loaded.image, kMapPx, loaded.image.type == PixelType::F32);
+                if (map.channel) picture = only_channel(std::move(picture), *map.channel, *map.invert);
                 maps.pictures.push_back(
-                    {std::string(param.label) + ": " + cells[2],
-                     small_picture(loaded.image, kMapPx, loaded.image.type == PixelType::F32)});
+                    {std::string(slot_row(*param.slot).label) + ": " + cells[2], std::move(picture)});
             }
         }
         table.rows.push_back(std::move(cells));
@@ -245,7 +263,7 @@ ReportSection ComparisonReport::lights() const {
         std::vector<std::string> cells{shot.light,
                                        path_to_utf8(utf8_to_path(light.environment).filename()),
                                        number(double(light.rotation_deg)) + "°",
-                                       fixed("%+.2f EV", double(light.exposure_ev)),
+                                       fixed("%+.2f\u00a0EV", double(light.exposure_ev)),
                                        std::string(named(kTonemaps, light.tonemap).title),
                                        about};
         if (std::ranges::find(table.rows, cells) == table.rows.end()) table.rows.push_back(std::move(cells));

@@ -149,8 +149,9 @@ private:
     void draw_legend() {
         Image ramp = make_image(256, 1, 1, PixelType::F32);
         for (int x = 0; x < ramp.width; ++x) set_texel(ramp, x, 0, 0, kHeatWhite * float(x) / 255.0f);
-        sheet_.set_footer("Difference, CIEDE2000:  0", heat_picture(ramp, kHeatWhite),
-                          std::to_string(int(kHeatWhite)) + " and more; about 1 is just noticeable");
+        sheet_.set_footer(
+            "Difference, CIEDE2000:  0", heat_picture(ramp, kHeatWhite),
+            std::to_string(int(kHeatWhite)) + " and more; about 1 is just noticeable, grey is not compared");
     }
 
     Studio& studio_;

@@ -22,6 +22,7 @@ struct Document {
     std::string environment = "studio";  ///< likewise
     View view;
     std::optional<Comparison> sheet;  ///< shown instead of the one view; has a file of its own
+    int sheet_opened = 0;             ///< which of the sheets that were begun or opened it is
     bool operator==(const Document&) const = default;
 };
 

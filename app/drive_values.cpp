@@ -157,7 +157,7 @@ constexpr std::array kValues{
                }},
     NamedValue{"probe_first", [](const DriveView& v) { return probe_text(v.editor.probe.first); }},
     NamedValue{"probe_second", [](const DriveView& v) { return probe_text(v.editor.probe.second); }},
-    NamedValue{"sheet_file", [](const DriveView& v) { return path_to_utf8(v.editor.sheet.file); }},
+    NamedValue{"sheet_file", [](const DriveView& v) { return path_to_utf8(sheet_file(v.editor).path); }},
     NamedValue{"sheet_unsaved",
                [](const DriveView& v) { return std::string(sheet_unsaved(v.editor) ? "yes" : "no"); }},
     NamedValue{"sheet_yaws", sheet_yaws},

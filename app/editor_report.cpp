@@ -60,7 +60,7 @@ ReportWork::ReportWork(Editor& editor, Comparison shown, fs::path to)
       comparison(std::move(shown)),
       scenes(editor.renderer, loader, editor.registry, comparison, {}),
       report(scenes, editor.registry, comparison,
-             {.file = editor.sheet.file,
+             {.file = sheet_file(editor).path,
               .output = to,
               .renderer = editor.status.renderer,
               .reference_samples = editor.ui.report_reference ? kReferenceSamples : 0}),

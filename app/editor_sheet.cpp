@@ -42,9 +42,10 @@ const SheetPreset& sheet_preset(Editor& editor, const std::string& name) {
 }
 
 void start_sheet(Editor& editor, Comparison comparison, const fs::path& file) {
-    editor.sheet.file = file;
-    editor.sheet.saved.reset();
-    if (!file.empty()) editor.sheet.saved = comparison;
+    SheetFile& opened = editor.sheet.files[int(editor.sheet.files.size()) + 1];
+    editor.document.sheet_opened = int(editor.sheet.files.size());
+    opened.path = file;
+    if (!file.empty()) opened.saved = comparison;
     editor.camera = comparison.camera;
     editor.ui.sheet_selected = 0;
     editor.ui.sheet_enlarged = -1;
@@ -138,6 +139,12 @@ View view_of_sheet(const Editor& editor, std::size_t view) {
     return result;
 }
 
+const SheetFile& sheet_file(const Editor& editor) {
+    static const SheetFile none;
+    const auto found = editor.sheet.files.find(editor.document.sheet_opened);
+    return found != editor.sheet.files.end() ? found->second : none;
+}
+
 void show_sheet(Editor& editor, bool shown) {
     ++editor.changes;
     if (!shown) {
@@ -170,6 +177,9 @@ void open_sheet(Editor& editor, const std::string& file) {
         for (const std::string& note : loaded.notes) log_line(editor, ui::Severity::Warning, note);
         const std::size_t views = places_of(loaded.comparison).size();
         editor.sheet.presets.clear();
+        if (sheet_unsaved(editor))
+            log_line(editor, ui::Severity::Warning,
+                     "The comparison before it was not saved; Undo brings it back.");
         start_sheet(editor, std::move(loaded.comparison), path);
         editor.ui.right_tab = "sheet";
         log_line(editor, ui::Severity::Info, "Opened " + path_to_utf8(path.filename()) + ".");
@@ -193,8 +203,7 @@ bool save_sheet_as(Editor& editor, const std::string& chosen) {
         comparison.camera = editor.camera;
         save_comparison(file, comparison);
         editor.document.sheet->camera = editor.camera;
-        editor.sheet.file = file;
-        editor.sheet.saved = editor.document.sheet;
+        editor.sheet.files[editor.document.sheet_opened] = {file, editor.document.sheet};
         fs::remove(kept_sheet(), ignored);
         log_line(editor, ui::Severity::Info, "Saved " + path_to_utf8(file.filename()) + ".");
         return true;
@@ -206,8 +215,8 @@ bool save_sheet_as(Editor& editor, const std::string& chosen) {
 
 void save_sheet(Editor& editor) {
     if (!editor.document.sheet) return;
-    if (editor.sheet.file.empty()) return open_browser(editor, ui::BrowserPurpose::SaveComparison);
-    save_sheet_as(editor, path_to_utf8(editor.sheet.file));
+    if (sheet_file(editor).path.empty()) return open_browser(editor, ui::BrowserPurpose::SaveComparison);
+    save_sheet_as(editor, path_to_utf8(sheet_file(editor).path));
 }
 
 bool set_sheet_preset(Editor& editor, const std::string& file) {
@@ -234,7 +243,7 @@ void set_mesh(Editor& editor, const std::string& mesh) {
 bool sheet_unsaved(const Editor& editor) {
     const std::optional<Comparison>& sheet =
         editor.document.sheet ? editor.document.sheet : editor.sheet.put_away;
-    return sheet && sheet != editor.sheet.saved;
+    return sheet && sheet != sheet_file(editor).saved;
 }
 
 void keep_sheet(const Editor& editor) {

@@ -23,9 +23,14 @@ struct SheetPreset {
     std::string error;  ///< one sentence; the material is then the default one
 };
 
+/// Where a sheet lives.
+struct SheetFile {
+    std::filesystem::path path;       ///< empty: never saved
+    std::optional<Comparison> saved;  ///< what it holds
+};
+
 struct EditorSheet {
-    std::filesystem::path file;          ///< empty: never saved
-    std::optional<Comparison> saved;     ///< what the file holds
+    std::map<int, SheetFile> files;      ///< by Document::sheet_opened: undo may bring an earlier one back
     std::optional<Comparison> put_away;  ///< while the one view is shown
     std::map<std::string, SheetPreset> presets;
     std::shared_ptr<ReportWork> report;  ///< being drawn
@@ -48,6 +53,8 @@ std::vector<WantedPicture> wanted_pictures(Editor& editor);
 const Camera& camera_of_sheet(const Editor& editor, std::size_t view);
 View view_of_sheet(const Editor& editor, std::size_t view);
 
+/// Of the document's sheet.
+const SheetFile& sheet_file(const Editor& editor);
 void show_sheet(Editor& editor, bool shown);
 void open_sheet(Editor& editor, const std::string& file);
 void save_sheet(Editor& editor);

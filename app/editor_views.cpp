@@ -84,7 +84,7 @@ void Loop::fill_sheet(ui::PanelContext& context) const {
         fill_photo(editor_, view, cell);
         context.sheet_cells.push_back(std::move(cell));
     }
-    context.sheet_file = path_to_utf8(editor_.sheet.file);
+    context.sheet_file = path_to_utf8(sheet_file(editor_).path);
     context.sheet_unsaved = sheet_unsaved(editor_);
 }
 

@@ -38,11 +38,12 @@ h3 { font-size: 1em; margin: 1em 0 .4em; break-after: avoid; }
 .row { display: grid; gap: 8px; margin-bottom: 8px; break-inside: avoid; }
 figure { margin: 0; }
 figure img { width: 100%; display: block; border-radius: 3px; }
-figcaption { font-size: .82em; color: #5c5c62; margin-top: .2em; overflow-wrap: anywhere; }
-table { border-collapse: collapse; font-size: .9em; break-inside: auto; }
+figcaption { font-size: .82em; min-width: 0; color: #5c5c62; margin-top: .2em; overflow-wrap: anywhere; }
+table { border-collapse: collapse; font-size: .9em; break-inside: avoid; }
 th, td { text-align: left; vertical-align: top; padding: .25em 1em .25em 0; border-bottom: 1px solid #ececef;
   overflow-wrap: anywhere; }
-th { color: #5c5c62; font-weight: 600; }
+th { color: #5c5c62; font-weight: 600; white-space: nowrap; }
+thead { display: table-header-group; }
 tr { break-inside: avoid; }
 .note { font-size: .85em; color: #5c5c62; margin: .4em 0; }
 pre { font: 12px/1.5 ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; background: #f4f4f6; padding: .8em 1em;
@@ -90,7 +91,11 @@ void write_table(std::string& html, const ReportTable& table) {
         html += "</tr>\n";
     };
     html += "<table>\n";
-    if (!table.header.empty()) row("th", table.header);
+    if (!table.header.empty()) {
+        html += "<thead>";
+        row("th", table.header);
+        html += "</thead>\n";
+    }
     for (const auto& cells : table.rows) row("td", cells);
     html += "</table>\n";
 }

@@ -204,7 +204,9 @@ private:
     }
 
     void paragraph(const std::string& text, const Style& style, float indent = 0.0f) {
-        for (const std::string& line : broken(text, style, kTextWidth - indent)) {
+        const std::vector<std::string> lines = broken(text, style, kTextWidth - indent);
+        if (lines.size() <= 4) need(float(lines.size()) * style.size * kLineHeight);  // stays together
+        for (const std::string& line : lines) {
             need(style.size * kLineHeight);
             top_ -= style.size * kLineHeight;
             put_line(line, style, kMargin + indent, top_ + 0.28f * style.size);
@@ -232,6 +234,21 @@ private:
         for (const ReportPictureRow& row : section.pictures)
             for (std::size_t first = 0; first < row.pictures.size(); first += columns)
                 write_row(row, first, std::min(first + columns, row.pictures.size()), width);
+    }
+    /// Of the first row of pictures with its heading, captions left out.
+    static float first_row_height(const ReportSection& section) {
+        if (section.pictures.empty()) return 0.0f;
+        const ReportPictureRow& row = section.pictures.front();
+        std::size_t columns = std::size_t(std::max(section.picture_columns, 0));
+        for (const ReportPictureRow& each : section.pictures)
+            if (section.picture_columns == 0) columns = std::max(columns, each.pictures.size());
+        const float width =
+            (kTextWidth - kGap * float(columns - 1)) / float(std::max<std::size_t>(columns, 1));
+        float height = 0.0f;
+        for (const ReportPicture& picture : row.pictures)
+            if (!picture.image.empty()) height = std::max(height, shown_height(picture.image, width));
+        return height + (row.heading.empty() ? 0.0f : kRowHead.size * 2.0f) +
+               3.0f * kSmall.size * kLineHeight;
     }
     void write_row(const ReportPictureRow& row, std::size_t first, std::size_t end, float width) {
         float height = 0.0f;
@@ -291,16 +308,34 @@ private:
                 width -= std::max(0.0f, width - fair) * std::min(1.0f, (sum - kTextWidth) / wide);
         return widths;
     }
+    float table_row_height(const std::vector<std::string>& cells, const std::vector<float>& widths,
+                           const Style& style) const {
+        std::size_t most = 1;
+        for (std::size_t i = 0; i < cells.size(); ++i)
+            most = std::max(most, broken(cells[i], style, widths[i] - 8.0f).size());
+        return float(most) * style.size * kLineHeight + 4.0f;
+    }
+    /// A header stands at the head of every page that the table reaches.
+    void write_table(const ReportTable& table) {
+        const std::vector<float> widths = column_widths(table);
+        const float head = table.header.empty() ? 0.0f : table_row_height(table.header, widths, kTableHead);
+        float whole = head;
+        for (const auto& cells : table.rows) whole += table_row_height(cells, widths, kTable);
+        if (whole < 0.5f * kPageHeight) need(whole);
+        for (std::size_t row = 0; row < table.rows.size(); ++row) {
+            const std::size_t page = pages_.size();
+            need(table_row_height(table.rows[row], widths, kTable) + (row == 0 ? head : 0.0f));
+            if (head > 0.0f && (row == 0 || pages_.size() != page))
+                write_table_row(table.header, widths, kTableHead);
+            write_table_row(table.rows[row], widths, kTable);
+        }
+    }
     void write_table_row(const std::vector<std::string>& cells, const std::vector<float>& widths,
                          const Style& style) {
         std::vector<std::vector<std::string>> lines;
-        std::size_t most = 1;
-        for (std::size_t i = 0; i < cells.size(); ++i) {
+        for (std::size_t i = 0; i < cells.size(); ++i)
             lines.push_back(broken(cells[i], style, widths[i] - 8.0f));
-            most = std::max(most, lines.back().size());
-        }
-        const float height = float(most) * style.size * kLineHeight + 4.0f;
-        need(height);
+        const float height = table_row_height(cells, widths, style);
         float x = kMargin;
         for (std::size_t i = 0; i < cells.size(); ++i) {
             float baseline = top_ - style.size - 1.0f;
@@ -322,7 +357,8 @@ private:
     }
 
     void write_section(const ReportSection& section) {
-        need(110.0f);  // no heading alone at a page's end
+        // No heading alone at a page's end: what follows it fits below.
+        need(std::max(110.0f, 48.0f + first_row_height(section)));
         top_ -= 12.0f;
         const HPDF_Outline mark = HPDF_CreateOutline(pdf_, nullptr, latin(section.heading).c_str(), nullptr);
         HPDF_Outline_SetDestination(mark, HPDF_Page_CreateDestination(page_));
@@ -332,9 +368,7 @@ private:
         for (const std::string& text : section.paragraphs) paragraph(text, kBody);
         write_pictures(section);
         if (section.table) {
-            const std::vector<float> widths = column_widths(*section.table);
-            if (!section.table->header.empty()) write_table_row(section.table->header, widths, kTableHead);
-            for (const auto& cells : section.table->rows) write_table_row(cells, widths, kTable);
+            write_table(*section.table);
             top_ -= 6.0f;
         }
         for (const std::string& note : section.notes) paragraph(note, kSmall);

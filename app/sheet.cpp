@@ -71,6 +71,28 @@ std::vector<Glyph> laid_out(std::string_view text, float scale, float& width) {
     return glyphs;
 }
 
+float width_of(std::string_view text, float scale) {
+    float width = 0.0f;
+    laid_out(text, scale, width);
+    return width;
+}
+
+/// As much of the text as fits, with an ellipsis where something is left out.
+std::string shortened(std::string_view text, float height_px, float width_px) {
+    const float scale = stbtt_ScaleForPixelHeight(&label_font(), height_px);
+    if (width_of(text, scale) + 1.0f <= width_px) return std::string(text);
+    std::string best;
+    for (std::string_view rest = text; !rest.empty();) {
+        next_code_point(rest);
+        std::string shorter(text.substr(0, text.size() - rest.size()));
+        while (shorter.ends_with(' ')) shorter.pop_back();
+        shorter += "…";
+        if (width_of(shorter, scale) + 1.0f > width_px) break;
+        best = std::move(shorter);
+    }
+    return best;
+}
+
 /// Adds one glyph's coverage at a sub-pixel pen position.
 void stamp(Image& target, const Glyph& glyph, float scale, float baseline) {
     const float fraction = glyph.x - std::floor(glyph.x);
@@ -130,7 +152,7 @@ Sheet::Sheet(int columns, int rows, glm::ivec2 cell_px, PixelType type, bool foo
 }
 
 int Sheet::write(std::string_view text, glm::ivec2 top_left, int width_px) {
-    const Image coverage = text_coverage(text, text_px_);
+    const Image coverage = text_coverage(shortened(text, text_px_, float(width_px)), text_px_);
     const bool linear = image_.type == PixelType::F32;
     for (int y = 0; y < coverage.height; ++y)
         for (int x = 0; x < std::min(coverage.width, width_px); ++x) {

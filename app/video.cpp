@@ -55,10 +55,11 @@ bool is_video(const fs::path& file) {
 
 bool has_ffmpeg() { return run_quietly({"ffmpeg", "-version"}) == 0; }
 
-void join_frames(const fs::path& pattern, const fs::path& video) {
+void join_frames(const fs::path& pattern, int frames, const fs::path& video) {
     fs::path unfinished = video;
     unfinished.replace_filename("." + video.filename().string());
-    std::vector<std::string> words{"ffmpeg", "-y", "-framerate", "24", "-i", pattern.string()};
+    std::vector<std::string> words{"ffmpeg",         "-y",        "-framerate",          "24", "-i",
+                                   pattern.string(), "-frames:v", std::to_string(frames)};
     if (video.extension() != ".gif")
         // Players want an even size and 4:2:0 colours.
         for (const char* word : {"-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2", "-pix_fmt", "yuv420p"})

@@ -9,8 +9,8 @@ namespace patina {
 bool is_video(const std::filesystem::path& file);
 bool has_ffmpeg();
 
-/// pattern: the pictures' path with a printf number, from 1 on. 24 pictures a second. Atomic; throws
-/// std::runtime_error with one sentence that names the video.
-void join_frames(const std::filesystem::path& pattern, const std::filesystem::path& video);
+/// pattern: the path of so many pictures with a printf number, from 1 on. 24 pictures a second. Atomic;
+/// throws std::runtime_error with one sentence that names the video.
+void join_frames(const std::filesystem::path& pattern, int frames, const std::filesystem::path& video);
 
 }  // namespace patina

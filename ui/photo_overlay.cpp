@@ -278,7 +278,8 @@ void draw_photo_rows(PanelContext& context, int view) {
     draw_photo_tools(context, *photo, full);
     draw_undoing(context, *photo, full);
     checkbox(context, "compare.photo.heat", "Show the difference",
-             "CIEDE2000 in colours: black is equal, white is 20 and more.", context.ui.photo_heat);
+             "CIEDE2000 in colours: black is equal, white is 20 and more, grey is not compared.",
+             context.ui.photo_heat);
     if (button(context, "compare.photo.remove", "Remove the photo", "The file stays.", {.width = full})) {
         context.ui.photo_tool = PhotoTool::None;
         context.requests.push_back(request::ChangeSheet{request::SheetChange::RemovePhoto, view});

@@ -57,12 +57,26 @@ void draw_cell_picture(const SheetCell& cell, const Rect& rect, const PanelConte
     ImGui::PopFont();
 }
 
+/// In one line, or below each other where the view is narrow.
+void draw_title(const SheetCell& cell, const Rect& rect) {
+    const std::string all =
+        cell.preset + "  ·  " + cell.light + (cell.residual.empty() ? "" : "  ·  " + cell.residual);
+    const ImVec2 at{rect.x0 + px(8), rect.y0 + px(8)};
+    if (ImGui::CalcTextSize(all.c_str()).x + px(32) <= rect.width()) return draw_chip(at, all);
+    const float line = ImGui::GetFontSize() + px(10);
+    float y = at.y;
+    for (const std::string* part : {&cell.preset, &cell.light, &cell.residual}) {
+        if (part->empty()) continue;
+        draw_chip({at.x, y}, *part);
+        y += line;
+    }
+}
+
 void draw_cell_labels(PanelContext& context, const SheetCell& cell, const Rect& rect, bool selected) {
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->PushClipRect({rect.x0, rect.y0}, {rect.x1, rect.y1}, true);
     ImGui::PushFont(font_of(Face::Small));
-    draw_chip({rect.x0 + px(8), rect.y0 + px(8)},
-              cell.preset + "  ·  " + cell.light + (cell.residual.empty() ? "" : "  ·  " + cell.residual));
+    draw_title(cell, rect);
     if (selected && context.ui.rotating_light) {
         const int degrees = static_cast<int>(std::lround(context.view.env_rotation_deg));
         draw_chip(

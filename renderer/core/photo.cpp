@@ -193,6 +193,8 @@ Residual residual_of(const Image& photo, const Image& render, const std::optiona
 
 Image delta_e_picture(const Image& photo, const Image& render, const std::optional<Region>& region) {
     Image picture = make_image(photo.width, photo.height, 1, PixelType::F32);
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x) set_texel(picture, x, y, 0, -1.0f);
     for_compared(photo, render, region, [&](int x, int y, glm::vec3 seen, glm::vec3 made) {
         set_texel(picture, x, y, 0, difference(seen, made));
     });
@@ -205,9 +207,11 @@ Image heat_picture(const Image& values, float white) {
     Image picture = make_image(values.width, values.height, 3, PixelType::U8);
     for (int y = 0; y < values.height; ++y)
         for (int x = 0; x < values.width; ++x) {
-            const float at = std::clamp(texel(values, x, y, 0) / white, 0.0f, 1.0f) * float(stops.size() - 1);
+            const float value = texel(values, x, y, 0);
+            const float at = std::clamp(value / white, 0.0f, 1.0f) * float(stops.size() - 1);
             const auto i = std::min(std::size_t(at), stops.size() - 2);
-            const glm::vec3 color = glm::mix(stops[i], stops[i + 1], at - float(i));
+            const glm::vec3 color =
+                value < 0.0f ? glm::vec3(0.5f) : glm::mix(stops[i], stops[i + 1], at - float(i));
             for (int c = 0; c < 3; ++c) set_texel(picture, x, y, c, color[c]);
         }
     return picture;

@@ -67,9 +67,10 @@ struct Residual {
 /// Over what the photo covers of the region; values above 1 count as 1 for ΔE, as on paper, not for
 /// luminance.
 Residual residual_of(const Image& photo_in_view, const Image& render, const std::optional<Region>& region);
-/// ΔE2000 a pixel, 0 where nothing is compared: 1 channel of F32.
+/// ΔE2000 a pixel, negative where nothing is compared: 1 channel of F32.
 Image delta_e_picture(const Image& photo_in_view, const Image& render, const std::optional<Region>& region);
-/// 8-bit sRGB picture of it: black at 0 through blue, red and yellow to white at `white` and above.
+/// 8-bit sRGB picture of it: black at 0 through blue, red and yellow to white at `white` and above; mid-grey
+/// where it is negative.
 Image heat_picture(const Image& values, float white);
 
 /// One trial: the parameter moved by so much leaves that mean ΔE.

@@ -119,6 +119,45 @@ TEST(Turntable, draws_a_whole_turn_in_numbered_pictures) {
     EXPECT_NE(third.bytes, load_image(work.path("turn-001.png")).image.bytes);
 }
 
+bool ffmpeg_is_installed() { return std::system("ffmpeg -version > /dev/null 2>&1") == 0; }
+
+TEST(Turntable, becomes_a_video_and_goes_on_where_it_was_ended) {
+    if (!ffmpeg_is_installed()) GTEST_SKIP() << "ffmpeg is not installed: no video can be joined here";
+    const Workspace work;
+    const std::vector<std::string> turn{"--size", "32x32", "--env", "furnace", "--turntable", "3"};
+    const auto run = [&](const char* output, const std::vector<std::string>& more) {
+        std::vector<std::string> words{"render", "-", "-o", output};
+        words.insert(words.end(), turn.begin(), turn.end());
+        words.insert(words.end(), more.begin(), more.end());
+        return work.run(words);
+    };
+    const Outcome first = run("turn.mp4", {});
+    ASSERT_EQ(first.exit_status, 0) << first.errors;
+    EXPECT_EQ(work.files(), std::vector<std::string>{"turn.mp4"}) << "no frames are left";
+    EXPECT_EQ(work.read("turn.mp4").substr(4, 4), "ftyp");
+    // Frames that an ended run has left are taken over, and none of a longer one comes into the video.
+    std::filesystem::create_directories(work.path("again.mp4.frames"));
+    ASSERT_EQ(run("again.mp4.frames/frame.png", {"--up-to-date"}).exit_status, 0);
+    std::filesystem::copy_file(work.path("again.mp4.frames/frame-003.png"),
+                               work.path("again.mp4.frames/frame-004.png"));
+    const Outcome again = run("again.mp4", {});
+    ASSERT_EQ(again.exit_status, 0) << again.errors;
+    EXPECT_NE(again.errors.find("is up to date"), std::string::npos) << again.errors;
+    EXPECT_EQ(work.read("again.mp4"), work.read("turn.mp4"));
+}
+
+TEST(Turntable, says_so_where_no_video_can_be_made) {
+    const Workspace work;
+    const std::string path = std::getenv("PATH") ? std::getenv("PATH") : "";
+    ::setenv("PATH", work.folder().c_str(), 1);
+    const Outcome outcome = work.run(
+        {"render", "-", "-o", "turn.mp4", "--size", "16x16", "--env", "furnace", "--turntable", "2"});
+    ::setenv("PATH", path.c_str(), 1);
+    EXPECT_EQ(outcome.exit_status, 1);
+    EXPECT_NE(outcome.errors.find("needs ffmpeg"), std::string::npos) << outcome.errors;
+    EXPECT_TRUE(work.files().empty());
+}
+
 TEST(UpToDate, pictures_are_made_again_only_when_something_in_them_changed) {
     const Workspace work;
     work.write("mine.json", R"({"name": "Mine", "albedo": {"value": [0.5, 0.5, 0.5]}})");

@@ -3,12 +3,19 @@
 #include "app/photo_hints.h"
 #include "app/shoot.h"
 #include "renderer/core/color_difference.h"
+#include "renderer/core/environment.h"
 #include "renderer/core/homography.h"
+#include "renderer/ibl/bake.h"
 #include "tests/gl/scene.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace patina {
 namespace {
@@ -78,16 +85,17 @@ struct Found {
     Photo photo;
     Image in_view;
 };
+Found found_again(const Scene& truth) {
+    const Image photo = synthetic_photo(radiance()(truth));
+    Found f{.photo = fitted()};
+    const auto balance = balance_to(*card_patch(photo, kCardAt), glm::vec3(kGreyCard));
+    f.photo.exposure_ev = balance->exposure_ev;
+    f.photo.white_balance = balance->white_balance;
+    f.in_view = photo_in_view(f.photo, photo, kView);
+    return f;
+}
 Found found() {
-    static const Found result = [] {
-        const Image photo = synthetic_photo(radiance()(truth_scene()));
-        Found f{.photo = fitted()};
-        const auto balance = balance_to(*card_patch(photo, kCardAt), glm::vec3(kGreyCard));
-        f.photo.exposure_ev = balance->exposure_ev;
-        f.photo.white_balance = balance->white_balance;
-        f.in_view = photo_in_view(f.photo, photo, kView);
-        return f;
-    }();
+    static const Found result = found_again(truth_scene());
     return result;
 }
 
@@ -156,6 +164,121 @@ TEST(PhotoTruth, hints_lead_back_to_the_truth_and_say_nothing_there) {
         << light[0];
 }
 
+// ---- other materials under other lights ----
+
+struct Truth {
+    const char* environment;
+    Material material;
+};
+std::vector<Truth> truths() {
+    const auto material = [](glm::vec3 albedo, float roughness, float metallic) {
+        Material result;
+        result.albedo.value = albedo;
+        result.roughness.value = roughness;
+        result.metallic.value = metallic;
+        return result;
+    };
+    const std::array materials{material({0.95f, 0.64f, 0.54f}, 0.35f, 1.0f),  // copper
+                               material({0.03f, 0.03f, 0.035f}, 0.4f, 0.0f),  // black plastic
+                               material({0.45f, 0.42f, 0.38f}, 0.5f, 0.0f),   // clay
+                               material({0.05f, 0.12f, 0.4f}, 0.35f, 0.0f)};  // blue paint
+    std::vector<Truth> all;
+    for (const char* environment : {"studio", "sky", "sunset", "night"})
+        for (const Material& each : materials) all.push_back({environment, each});
+    return all;
+}
+
+Scene scene_of(const Truth& truth) {
+    static std::map<std::string, EnvironmentHandle> lights;
+    EnvironmentHandle& light = lights[truth.environment];
+    if (!light)
+        for (const BuiltinEnvironment& each : builtin_environments())
+            if (each.id == truth.environment) {
+                const Environment environment = each.make(256);
+                light = renderer().upload_environment(environment,
+                                                      *bake_environment(environment, BakeSettings{}, {}));
+            }
+    Scene scene = truth_scene();
+    scene.environment = light;
+    scene.material = truth.material;
+    return scene;
+}
+
+/// Of materials with one value moved away from the truth, further each time, the mean ΔE.
+struct Away {
+    const char* what;
+    std::vector<Material> moved;
+};
+std::vector<Away> ways_off(const Material& truth) {
+    std::vector<Away> ways{{"smoother", {}}, {"rougher", {}}, {"darker", {}}, {"brighter", {}}};
+    for (const float step : {0.1f, 0.2f, 0.3f})
+        for (const int direction : {0, 1}) {
+            Material moved = truth;
+            moved.roughness.value += direction == 0 ? -step : step;
+            ways[std::size_t(direction)].moved.push_back(moved);
+        }
+    for (const float stops : {0.25f, 0.5f, 1.0f})
+        for (const int direction : {0, 1}) {
+            Material moved = truth;
+            moved.albedo.value *= std::exp2(direction == 0 ? -stops : stops);
+            ways[std::size_t(2 + direction)].moved.push_back(moved);
+        }
+    return ways;
+}
+
+TEST(SlowPhotoTruth, the_residual_is_least_at_the_truth_for_other_materials_and_lights) {
+    for (const Truth& truth : truths()) {
+        const Scene scene = scene_of(truth);
+        const Found f = found_again(scene);
+        SCOPED_TRACE(std::string(truth.environment) + ", albedo " +
+                     std::to_string(truth.material.albedo.value.x));
+        EXPECT_NEAR(f.photo.exposure_ev, -kGainEv - std::log2(luminance(kTint)), 0.05f);
+        const auto delta_e = [&](const Material& material) {
+            Scene trial = scene;
+            trial.material = material;
+            return residual_of(f.in_view, radiance()(trial), f.photo.region).delta_e;
+        };
+        const float at_truth = delta_e(truth.material);
+        EXPECT_LT(at_truth, 0.6f);
+        std::string row = std::string(truth.environment) + " " + std::to_string(at_truth).substr(0, 4) + " |";
+        for (const Away& way : ways_off(truth.material)) {
+            float before = at_truth;
+            for (const Material& moved : way.moved) {
+                const float now = delta_e(moved);
+                EXPECT_GT(now, before) << way.what;
+                before = now;
+                row += " " + std::to_string(now).substr(0, 4);
+            }
+            row += " |";
+        }
+        std::printf("%s\n", row.c_str());
+    }
+}
+
+TEST(SlowPhotoTruth, hints_never_lead_away_from_the_truth) {
+    int given = 0, tried = 0;
+    for (const Truth& truth : truths()) {
+        const Scene scene = scene_of(truth);
+        const Found f = found_again(scene);
+        SCOPED_TRACE(std::string(truth.environment) + ", albedo " +
+                     std::to_string(truth.material.albedo.value.x));
+        EXPECT_TRUE(hints_for(f.in_view, f.photo.region, scene, radiance()).empty()) << "nothing is off";
+        for (const float off : {-0.2f, 0.2f}) {
+            Scene wrong = scene;
+            wrong.material.roughness.value += off;
+            const auto hints = hints_for(f.in_view, f.photo.region, wrong, radiance());
+            ++tried;
+            if (hints.empty() || hints[0].find("roughness") == std::string::npos) continue;
+            ++given;
+            EXPECT_NE(hints[0].find(off < 0.0f ? "higher" : "lower"), std::string::npos) << hints[0];
+            const std::size_t at = hints[0].find("about ");
+            EXPECT_NEAR(std::stof(hints[0].substr(at + 6)), std::abs(off), 0.06f) << hints[0];
+        }
+    }
+    std::printf("%d hints about roughness for %d wrong ones\n", given, tried);
+    EXPECT_GT(given, tried / 2);
+}
+
 TEST(PhotoTruth, the_shot_carries_picture_numbers_and_heat) {
     Scene scene = truth_scene();
     scene.material.albedo.value = {0.1f, 0.4f, 0.1f};
@@ -165,7 +288,7 @@ TEST(PhotoTruth, the_shot_carries_picture_numbers_and_heat) {
     EXPECT_GT(shot.residual.delta_e, 10.0f);
     EXPECT_EQ(shot.picture.channels, 3);
     EXPECT_GT(texel(shot.heat, 48, 48, 0), 0.2f);
-    EXPECT_EQ(texel(shot.heat, 10, 48, 0), 0.0f);
+    EXPECT_NEAR(texel(shot.heat, 10, 48, 0), 0.5f, 0.01f) << "outside of the region";
     EXPECT_NE(short_text(shot.residual).find("ΔE"), std::string::npos);
 }
 

@@ -14,6 +14,7 @@ using namespace test;
 TEST(EditorSheet, is_built_turned_undone_saved_and_opened_again) {
     const Folder home;
     EXPECT_DRIVEN(drive(home, R"(
+resize 1080 430              # a small window is drawn sooner
 wait idle
 key c
 wait idle
@@ -71,9 +72,19 @@ expect sheet_views=0
     EXPECT_EQ(saved.rows[0].preset, kEditedPreset);
     EXPECT_EQ(saved.rows[1].preset, "gold");
     EXPECT_FLOAT_EQ(saved.columns[1].rotation_deg, 10.0f);
-    EXPECT_DRIVEN(drive(home, "wait idle\ndrop \"" + (home / "metals.json").string() + R"("
+    EXPECT_DRIVEN(drive(
+        home, "resize 1080 430\nwait idle\nkey c\nwait idle\ndrop \"" + (home / "metals.json").string() + R"("
 wait until sheet_views=6
 wait idle
+expect log~brings            # the two views that were there had no file
+key ctrl+z
+wait idle
+expect sheet_views=2
+expect sheet_file=           # saving it does not replace the other's
+key ctrl+shift+z
+wait idle
+expect sheet_file~metals.json
+expect sheet_unsaved=no
 expect sheet_rotations=5,10,5
 click sheet.remove
 wait idle
@@ -99,6 +110,7 @@ TEST(EditorSheet, a_photo_is_balanced_by_a_card_fitted_by_points_and_saved) {
     const Folder home;
     write_picture(home / "shot.png", 118, 118, 100);
     EXPECT_DRIVEN(drive(home, R"(
+resize 1080 430              # a small window is drawn sooner
 wait idle
 key c
 wait idle

@@ -136,7 +136,7 @@ wait idle
 TEST(EditorSheet, a_photo_dropped_on_a_view_is_held_against_it) {
     const Folder home;
     write_picture(home / "shot.png", 40, 90, 160);
-    EXPECT_DRIVEN(drive(home, "resize 1280 480\nwait idle\nkey c\nwait idle\ndrop \"" +
+    EXPECT_DRIVEN(drive(home, "resize 1180 460\nwait idle\nkey c\nwait idle\ndrop \"" +
                                   (home / "shot.png").string() + R"(" at sheet.view.2
 wait idle
 expect sheet_selected=2
@@ -170,6 +170,30 @@ expect photo_opacity=none
 )"));
 }
 
+TEST(EditorSheet, a_report_is_drawn_beside_the_work_and_can_be_stopped) {
+    const Folder home;
+    EXPECT_DRIVEN(drive(home, R"(
+resize 1080 430
+wait idle
+key c
+wait idle
+click compare.report_reference  # many short steps: there is time to stop it
+click compare.report
+wait until item browser.file_name
+click browser.file_name
+key ctrl+a
+type stopped.html
+click browser.confirm
+wait until item status.cancel
+click status.cancel
+wait idle
+expect log~Cancelled
+expect log!~Exported
+)",
+                        {"gold"}));
+    EXPECT_FALSE(std::filesystem::exists(home / "stopped.html"));
+}
+
 TEST(EditorSheet, a_view_with_a_camera_of_its_own_stays_when_the_others_turn) {
     const Folder home;
     EXPECT_DRIVEN(drive(home, R"(
@@ -197,6 +221,7 @@ expect item sheet.view.2
 TEST(EditorSheet, two_views_are_held_against_each_other_in_one) {
     const Folder home;
     EXPECT_DRIVEN(drive(home, R"(
+resize 1180 460              # a small window is drawn sooner
 wait idle
 key c
 wait idle
@@ -243,6 +268,7 @@ TEST(EditorMaps, are_made_from_a_photo_worn_undone_and_never_replace_a_file) {
     const Folder home;
     write_wall(home / "wall.png");
     EXPECT_DRIVEN(drive(home, R"(
+resize 1180 460              # a small window is drawn sooner
 wait idle
 click inspector.maps
 click maps.choose

@@ -223,9 +223,9 @@ TEST(PhotoResidual, its_picture_holds_the_same_differences) {
         for (int x = 0; x < 8; ++x) sum += texel(picture, x, y, 0);
     EXPECT_NEAR(sum / 32.0f, residual_of(covered(photo), render, Region{0.0f, 0.0f, 1.0f, 0.5f}).delta_e,
                 1e-4f);
-    EXPECT_EQ(texel(picture, 3, 6, 0), 0.0f);
+    EXPECT_LT(texel(picture, 3, 6, 0), 0.0f) << "outside of the region";
     const Image heat = heat_picture(picture, 10.0f);
-    EXPECT_EQ(texel(heat, 3, 6, 0), 0.0f);
+    EXPECT_NEAR(texel(heat, 3, 6, 0), 0.5f, 0.01f) << "grey is not compared";
     EXPECT_GT(texel(heat, 3, 2, 2), 0.1f);
 }
 
