@@ -121,7 +121,8 @@ Layout layout_of(const PanelContext& context, glm::vec2 size) {
 
 void take_drop(PanelContext& context) {
     if (!context.drop) return;
-    context.requests.push_back(request::Dropped{context.drop->files, context.ui.hit_slot, context.ui.hit_view});
+    context.requests.push_back(
+        request::Dropped{context.drop->files, context.ui.hit_slot, context.ui.hit_view});
     context.browser.open = false;
     context.result.wants_redraw = true;
 }
