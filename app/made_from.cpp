@@ -73,7 +73,8 @@ void add_scene(Inputs& inputs, const SceneOptions& scene) {
     for (const float value :
          {view.env_rotation_deg, view.exposure_ev, view.plain_color.x, view.plain_color.y, view.plain_color.z,
           camera.yaw_deg, camera.pitch_deg, camera.distance, camera.fov_deg, camera.target.x, camera.target.y,
-          camera.target.z, float(scene.size_px.x), float(scene.size_px.y), float(scene.samples), float(scene.error)})
+          camera.target.z, float(scene.size_px.x), float(scene.size_px.y), float(scene.samples),
+          float(scene.error)})
         inputs.add(double(value));
     for (const std::string_view name :
          {named(kTonemaps, view.tonemap).id, named(kBackgrounds, view.background).id,
