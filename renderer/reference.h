@@ -26,7 +26,8 @@ namespace patina {
 
 struct ReferenceOptions {
     int max_samples = 16384;  ///< points a pixel, at which it stops in any case (a multiple of 8)
-    double tolerance = 1e-3;  ///< it stops once 95 of 100 pixels are known better (Confidence::p95); 0: never
+    double tolerance =
+        1e-3;  ///< it stops once 95 of 100 pixels are known better (ConfidenceInterval::p95); 0: never
     bool pixel_filter = true;  ///< false: the middle of each pixel alone
     std::uint64_t seed = 1;
 };
@@ -34,7 +35,7 @@ struct ReferenceOptions {
 struct ReferenceProgress {
     int samples = 0;            ///< points so far of a pixel that never rested
     double mean_samples = 0.0;  ///< of the mesh's pixels, at the last judgement
-    std::optional<Confidence> confidence;
+    std::optional<ConfidenceInterval> confidence;
     bool converged = false;  ///< within the tolerance
     bool done = false;       ///< converged or at the limit
 };

@@ -44,7 +44,7 @@ std::vector<float> half_widths_of(std::span<const float> values, int count, std:
     return half_widths;
 }
 
-Confidence confidence_of(std::vector<float> half_widths) {
+ConfidenceInterval confidence_of(std::vector<float> half_widths) {
     std::erase_if(half_widths, [](float each) { return each < 0.0f; });
     if (half_widths.empty()) return {};
     const auto quantile = [&](double share) {

@@ -11,7 +11,7 @@ double student_t95(int count);
 
 /// Over pixels: the half-width of the mean's 95 % interval relative to max(mean, floor), where the floor is a
 /// hundredth of the picture's mean. Pixels that are 0 in every replicate do not count.
-struct Confidence {
+struct ConfidenceInterval {
     double median = 0.0;
     double p95 = 0.0;  ///< 95 of 100 pixels are known better
     double max = 0.0;
@@ -21,6 +21,6 @@ struct Confidence {
 /// Precondition: count ≥ 2.
 std::vector<float> half_widths_of(std::span<const float> values, int count,
                                   std::span<const float> weights = {});
-Confidence confidence_of(std::vector<float> half_widths);
+ConfidenceInterval confidence_of(std::vector<float> half_widths);
 
 }  // namespace patina

@@ -66,7 +66,7 @@ Configuration random_configuration(std::mt19937& random) {
 
 struct Estimate {
     glm::vec3 radiance{0.0f};
-    Confidence known;
+    ConfidenceInterval known;
 };
 Estimate sampled(const Configuration& c, const EnvironmentHandle& light, int samples) {
     Scene scene = make_scene(light, facing(c.N));

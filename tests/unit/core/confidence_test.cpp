@@ -32,7 +32,7 @@ TEST(Confidence, covers_the_truth_95_times_in_100) {
 TEST(Confidence, is_relative_and_leaves_out_what_was_never_drawn) {
     // Two pictures of three pixels: known exactly, within 10 %, never drawn.
     const std::vector<float> values{4.0f, 9.0f, 0.0f, 4.0f, 11.0f, 0.0f};
-    const Confidence known = confidence_of(half_widths_of(values, 2));
+    const ConfidenceInterval known = confidence_of(half_widths_of(values, 2));
     EXPECT_NEAR(known.max, 12.706 * 1.0 / 10.0, 1e-3);
     EXPECT_NEAR(known.median, 0.0, 1e-9);
     EXPECT_EQ(confidence_of(half_widths_of(std::vector<float>(4, 0.0f), 2)).max, 0.0);
