@@ -328,10 +328,10 @@ TEST(Editor, shows_an_imported_set_on_the_mesh_and_under_the_light_that_lie_with
     const Folder home;
     const fs::path scan = make_scan(home);
     std::ofstream(scan / "plate.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
-    save_image(scan / "evening.hdr", make_image(32, 16, 3, PixelType::F32));
+    save_image(scan / "evening.exr", make_image(32, 16, 3, PixelType::F32));
     EXPECT_DRIVEN(drive(home, "wait idle\ndrop " + scan.string() +
                                   "\nwait until item import.apply\nclick import.apply\nwait until "
-                                  "environment~evening.hdr\nwait idle\nexpect "
+                                  "environment~evening.exr\nwait idle\nexpect "
                                   "mesh~plate.obj\nexpect triangles=2\nexpect albedo.state=ok\nexpect "
                                   "albedo.map~BaseColor\n"));
 }
