@@ -1,9 +1,8 @@
 #include "app/bench.h"
 
-#include "app/headless.h"
+#include "app/bench_stage.h"
 #include "app/jobs.h"
 #include "app/paths.h"
-#include "app/scene_loader.h"
 #include "app/temporary_folder.h"
 #include "materials/material_io.h"
 #include "materials/text_io.h"
@@ -91,12 +90,10 @@ std::vector<double> interleaved_medians_ms(const std::vector<std::function<void(
 }
 
 Json bench_frame(const BenchContext& context) {
-    HeadlessContext gl;
-    Renderer renderer;
-    const Jobs jobs(worker_count());
-    SceneLoader loader(renderer, context.registry,
-                       {.parallel_for = jobs.parallel_for(), .cache = {.folder = cache_folder() / "ibl"}});
-    Json json{{"renderer", gl.description()},
+    BenchStage stage;
+    Renderer& renderer = stage.renderer;
+    SceneLoader loader = stage.loader(context.registry);
+    Json json{{"renderer", stage.context.description()},
               {"environment", context.environments.front()},
               {"cases", Json::array()}};
     std::vector<FrameCase> cases = frame_cases(loader, context.environments.front());

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,5 +54,13 @@ nlohmann::ordered_json bench_skip(const BenchContext& context);
 nlohmann::ordered_json bench_ibl(const BenchContext& context);
 /// Properties on random cases: the worst of each against its tolerance.
 nlohmann::ordered_json bench_stability(const BenchContext& context);
+
+/// Throws std::runtime_error: there is no such row; and those that there are.
+template <class Rows, class NameOf>
+[[noreturn]] void refuse_name(const char* kind, const std::string& name, const Rows& rows, NameOf name_of) {
+    std::string sentence = std::string("there is no ") + kind + " '" + name + "'; there are:";
+    for (const auto& row : rows) sentence.append(" ").append(std::invoke(name_of, row));
+    throw std::runtime_error(sentence);
+}
 
 }  // namespace patina

@@ -2,10 +2,10 @@
 // draws it, and how far its picture is from the truth after so many points.
 #include "app/accuracy.h"
 #include "app/bench.h"
-#include "app/headless.h"
+#include "app/bench_stage.h"
 #include "app/jobs.h"
 #include "app/paths.h"
-#include "app/scene_loader.h"
+#include "renderer/core/format.h"
 #include "renderer/core/metrics.h"
 #include "renderer/reference.h"
 
@@ -145,27 +145,22 @@ Json errors_of(Renderer& renderer, const Scene& scene, int truth_samples) {
     return errors;
 }
 
-std::string seconds_text(double seconds) {
-    if (seconds < 0.0) return "-";
-    char text[32];
-    std::snprintf(text, sizeof(text), "%.2f s", seconds);
-    return text;
-}
+std::string seconds_text(double seconds) { return seconds < 0.0 ? "-" : formatted("%.2f s", seconds); }
 
 }  // namespace
 
 Json bench_reference(const BenchContext& context) {
-    HeadlessContext gl;
-    Renderer renderer;
-    const Jobs jobs(worker_count());
-    SceneLoader loader(renderer, context.registry,
-                       {.parallel_for = jobs.parallel_for(), .cache = {.folder = cache_folder() / "ibl"}});
+    BenchStage stage;
+    Renderer& renderer = stage.renderer;
+    SceneLoader loader = stage.loader(context.registry);
     std::vector<std::string> environments{"studio", "sunset"};
     for (const std::string& each : context.environments)
         if (each.find('.') != std::string::npos) environments.push_back(each);  // those given as files
     const int truth_samples = context.quick ? 8192 : 32768;
-    Json json{
-        {"renderer", gl.description()}, {"side_px", kSidePx}, {"clean", kClean}, {"cases", Json::array()}};
+    Json json{{"renderer", stage.context.description()},
+              {"side_px", kSidePx},
+              {"clean", kClean},
+              {"cases", Json::array()}};
     std::printf("%-12s %-14s %9s %9s %9s %12s %10s %38s\n", "environment", "material", "first", "256",
                 "clean", "samples", "turn", "rms of 64, 256, 1024 samples, clean");
     for (const std::string& environment : environments)

@@ -1,9 +1,8 @@
 // `patina bench shading`: every shading mode and its rivals against the reference, error over cost.
 #include "app/bench.h"
-#include "app/headless.h"
+#include "app/bench_stage.h"
 #include "app/jobs.h"
 #include "app/paths.h"
-#include "app/scene_loader.h"
 #include "renderer/core/camera.h"
 #include "renderer/core/metrics.h"
 #include "renderer/reference.h"
@@ -214,11 +213,9 @@ std::vector<double> frame_ms(const std::vector<Way>& list, SceneLoader& loader, 
 }  // namespace
 
 Json bench_shading(const BenchContext& context) {
-    HeadlessContext gl;
-    Renderer renderer;
-    const Jobs jobs(worker_count());
-    SceneLoader loader(renderer, context.registry,
-                       {.parallel_for = jobs.parallel_for(), .cache = {.folder = cache_folder() / "ibl"}});
+    BenchStage stage;
+    Renderer& renderer = stage.renderer;
+    SceneLoader loader = stage.loader(context.registry);
     const std::vector<Way> list = ways();
     const Extent extent = extent_of(context);
     Shop shop{.renderer = renderer, .loader = loader, .ways = list, .extent = extent, .rms = {}};
@@ -229,9 +226,12 @@ Json bench_shading(const BenchContext& context) {
                 for (const float roughness : roughnesses)
                     measure_case(shop, {environment, mesh, material, roughness});
     const std::vector<double> ms = frame_ms(list, loader, renderer, context);
-    Json json{{"renderer", gl.description()},   {"environments", extent.environments},
-              {"roughness_range", "0.05 to 1"}, {"most_reference_samples", extent.samples},
-              {"side_px", extent.side_px},      {"modes", Json::array()}};
+    Json json{{"renderer", stage.context.description()},
+              {"environments", extent.environments},
+              {"roughness_range", "0.05 to 1"},
+              {"most_reference_samples", extent.samples},
+              {"side_px", extent.side_px},
+              {"modes", Json::array()}};
     if (context.quick) json["roughness_range"] = "0.08, 0.3, 0.65";
     std::printf("%-24s %12s %14s %10s\n", "mode", "F0 = 1", "F0 = 0.04", "cost");
     for (std::size_t i = 0; i < list.size(); ++i) {

@@ -2,10 +2,9 @@
 // and with skipping off, in turn, and the pictures are compared.
 #include "app/bench.h"
 #include "app/bench_process.h"
-#include "app/headless.h"
+#include "app/bench_stage.h"
 #include "app/jobs.h"
 #include "app/paths.h"
-#include "app/scene_loader.h"
 #include "app/stats.h"
 #include "app/temporary_folder.h"
 #include "materials/text_io.h"
@@ -155,12 +154,6 @@ Json bench_commands(const BenchContext& context, int repetitions) {
 
 // --- what an artist does, in one process: time of a step ---
 
-struct Stage {
-    HeadlessContext context;
-    Renderer renderer;
-    Jobs jobs{worker_count()};
-};
-
 /// Draws all, and waits until they are drawn.
 void draw_all_views(Renderer& renderer, const std::vector<Scene>& scenes,
                     const std::vector<TargetHandle>& targets) {
@@ -227,10 +220,8 @@ double fastest_ms(const Step& step, StepViews& views, Renderer& renderer) {
     return fastest;
 }
 
-Json bench_steps(Stage& stage, const BenchContext& context) {
-    SceneLoader loader(
-        stage.renderer, context.registry,
-        {.parallel_for = stage.jobs.parallel_for(), .cache = {.folder = cache_folder() / "ibl"}});
+Json bench_steps(BenchStage& stage, const BenchContext& context) {
+    SceneLoader loader = stage.loader(context.registry);
     Json rows = Json::array();
     std::printf("\n%-34s %9s %9s %6s\n", "one step", "ms", "no skip", "ratio");
     for (const Step& step : steps()) {
@@ -276,7 +267,7 @@ Json shared_views(const Json& steps) {
 
 // --- a preset's maps, from their files to the GPU ---
 
-Json bench_maps(Stage& stage, const BenchContext& context) {
+Json bench_maps(BenchStage& stage, const BenchContext& context) {
     std::array<std::vector<double>, 2> ms;
     const auto load = [&](bool skip) {
         SceneLoader loader(stage.renderer, context.registry, {.skip = skip});
@@ -294,7 +285,7 @@ Json bench_maps(Stage& stage, const BenchContext& context) {
 
 // --- another environment, until the picture under it is there ---
 
-Json bench_switch(Stage& stage, const BenchContext& context) {
+Json bench_switch(BenchStage& stage, const BenchContext& context) {
     const std::string& environment = context.environments.back();
     const TargetHandle target = stage.renderer.make_target(glm::ivec2(kSidePx));
     const auto options = [&](bool skip, const fs::path& cache) {
@@ -348,7 +339,7 @@ Json bench_switch(Stage& stage, const BenchContext& context) {
 
 Json bench_skip(const BenchContext& context) {
     Json json{{"renderer", ""}, {"commands", bench_commands(context, context.quick ? 1 : 3)}};
-    Stage stage;
+    BenchStage stage;
     json["renderer"] = stage.context.description();
     json["steps"] = bench_steps(stage, context);
     json["shared_views"] = shared_views(json["steps"]);

@@ -23,14 +23,8 @@ std::vector<Property> chosen(const std::vector<std::string>& ids) {
     std::vector<Property> some;
     for (const std::string& id : ids) {
         const auto found = std::ranges::find(all, id, &Property::id);
-        if (found != all.end()) {
-            some.push_back(*found);
-            continue;
-        }
-        std::string sentence = "there is no property '";
-        sentence.append(id).append("'; there are:");
-        for (const Property& each : all) sentence.append(" ").append(each.id);
-        throw std::runtime_error(sentence);
+        if (found == all.end()) refuse_name("property", id, all, &Property::id);
+        some.push_back(*found);
     }
     return some;
 }

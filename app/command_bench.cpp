@@ -37,11 +37,8 @@ std::vector<const Benchmark*> chosen(const std::vector<std::string>& names) {
     for (const Benchmark& each : kBenchmarks)
         if (names.empty() || std::ranges::find(names, each.name) != names.end()) benchmarks.push_back(&each);
     for (const std::string& name : names) {
-        if (std::ranges::find(kBenchmarks, name, &Benchmark::name) != kBenchmarks.end()) continue;
-        std::string sentence = "there is no benchmark '";
-        sentence.append(name).append("'; there are:");
-        for (const Benchmark& each : kBenchmarks) sentence.append(" ").append(each.name);
-        throw std::runtime_error(sentence);
+        if (std::ranges::find(kBenchmarks, name, &Benchmark::name) == kBenchmarks.end())
+            refuse_name("benchmark", name, kBenchmarks, &Benchmark::name);
     }
     return benchmarks;
 }

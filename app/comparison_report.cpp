@@ -6,10 +6,9 @@
 #include "materials/params.h"
 #include "materials/text_io.h"
 #include "renderer/core/file_io.h"
+#include "renderer/core/format.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <span>
 #include <stdexcept>
 
@@ -21,16 +20,7 @@ namespace {
 
 constexpr int kMapPx = 256;
 
-std::string number(double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.4g", value);
-    return text.data();
-}
-std::string fixed(const char* format, double value) {
-    std::array<char, 48> text{};
-    std::snprintf(text.data(), text.size(), format, value);
-    return text.data();
-}
+std::string number(double value) { return formatted("%.4g", value); }
 
 /// As a shell takes it.
 std::string quoted(const std::string& word) {
@@ -45,9 +35,9 @@ std::string quoted(const std::string& word) {
 
 std::vector<std::string> residual_cells(const Residual& r) {
     if (r.pixels == 0) return {"–", "–", "–", "–", "0"};
-    return {fixed("%.2f", double(r.delta_e)), fixed("%.2f", double(r.delta_e_95)),
-            fixed("%+.1f %%", 100.0 * double(r.luminance_bias)),
-            fixed("%.1f %%", 100.0 * double(r.luminance_rms)), std::to_string(r.pixels)};
+    return {formatted("%.2f", double(r.delta_e)), formatted("%.2f", double(r.delta_e_95)),
+            formatted("%+.1f %%", 100.0 * double(r.luminance_bias)),
+            formatted("%.1f %%", 100.0 * double(r.luminance_rms)), std::to_string(r.pixels)};
 }
 
 std::string values_text(const MaterialParam& param, const Material& material) {
@@ -69,10 +59,10 @@ Image only_channel(Image picture, Channel channel, bool invert) {
 }
 
 std::string balance_text(const Photo& photo) {
-    return fixed("%+.2f EV", double(photo.exposure_ev)) + ", white balance " +
-           fixed("%.3f", double(photo.white_balance.x)) + " / " +
-           fixed("%.3f", double(photo.white_balance.y)) + " / " +
-           fixed("%.3f", double(photo.white_balance.z)) + (photo.fit ? ", fitted by four points" : "") +
+    return formatted("%+.2f EV", double(photo.exposure_ev)) + ", white balance " +
+           formatted("%.3f", double(photo.white_balance.x)) + " / " +
+           formatted("%.3f", double(photo.white_balance.y)) + " / " +
+           formatted("%.3f", double(photo.white_balance.z)) + (photo.fit ? ", fitted by four points" : "") +
            (photo.region ? ", a region compared" : "");
 }
 
@@ -205,9 +195,10 @@ void ComparisonReport::add_errors(Report& report) const {
         .header = {"Material", "Light", "Error, rms", "95 % within", "Mean FLIP", "Known within"},
         .rows = {}};
     for (const Shot& shot : shots_)
-        table.rows.push_back({shot.material, shot.light, fixed("%.2f %%", 100.0 * shot.error->error.rms),
-                              fixed("%.2f %%", 100.0 * shot.error->error.p95),
-                              fixed("%.3f", shot.error->flip), fixed("%.2f %%", 100.0 * shot.error->known)});
+        table.rows.push_back({shot.material, shot.light, formatted("%.2f %%", 100.0 * shot.error->error.rms),
+                              formatted("%.2f %%", 100.0 * shot.error->error.p95),
+                              formatted("%.3f", shot.error->flip),
+                              formatted("%.2f %%", 100.0 * shot.error->known)});
     section.table = std::move(table);
     section.notes.push_back("The shading against the reflectance integral, sampled with " +
                             std::to_string(reference_->samples()) +
@@ -263,7 +254,7 @@ ReportSection ComparisonReport::lights() const {
         std::vector<std::string> cells{shot.light,
                                        path_to_utf8(utf8_to_path(light.environment).filename()),
                                        number(double(light.rotation_deg)) + "°",
-                                       fixed("%+.2f\u00a0EV", double(light.exposure_ev)),
+                                       formatted("%+.2f\u00a0EV", double(light.exposure_ev)),
                                        std::string(named(kTonemaps, light.tonemap).title),
                                        about};
         if (std::ranges::find(table.rows, cells) == table.rows.end()) table.rows.push_back(std::move(cells));

@@ -4,11 +4,11 @@
 #include "app/paths.h"
 #include "app/sheet.h"
 #include "materials/text_io.h"
+#include "renderer/core/format.h"
 #include "ui/ab_parts.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <stdexcept>
 
@@ -46,11 +46,7 @@ std::shared_ptr<const AccuracyPictures> measured_pictures(const Editor& editor, 
     return pictures;
 }
 
-std::string percent(double share) {
-    char text[32];
-    std::snprintf(text, sizeof(text), "%.2f %%", 100.0 * share);
-    return text;
-}
+std::string percent(double share) { return formatted("%.2f %%", 100.0 * share); }
 
 /// The map with its title above and its ramp of colours below.
 Image with_legend(const Image& map, const std::string& title, const ui::RampLegend& legend) {

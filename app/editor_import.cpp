@@ -97,13 +97,13 @@ void offer_sheet(Editor& editor, const Sorted& sorted) {
     const ImportProposal proposal = propose_import(sorted.maps);
     ui::ImportSheet sheet{.title = proposal.name};
     for (const patina::ImportRow& row : proposal.rows) sheet.rows.push_back(to_ui(row));
-    if (sorted.meshes.size() == 1) sheet.mesh = sorted.meshes[0];
-    if (sorted.environments.size() == 1) sheet.environment = sorted.environments[0];
-    for (const std::string& mesh : sheet.mesh.empty() ? sorted.meshes : std::vector<std::string>{})
-        sheet.notes.push_back(short_name(mesh) + " is a mesh; drop it by itself to put the material on it.");
-    for (const std::string& light :
-         sheet.environment.empty() ? sorted.environments : std::vector<std::string>{})
-        sheet.notes.push_back(short_name(light) + " is an environment; drop it by itself to light by it.");
+    const auto offer = [&](const std::vector<std::string>& files, std::string& only, const char* note) {
+        if (files.size() == 1) only = files[0];
+        for (std::size_t i = 0; files.size() > 1 && i < files.size(); ++i)
+            sheet.notes.push_back(short_name(files[i]) + note);
+    };
+    offer(sorted.meshes, sheet.mesh, " is a mesh; drop it by itself to put the material on it.");
+    offer(sorted.environments, sheet.environment, " is an environment; drop it by itself to light by it.");
     for (const std::string& preset : sorted.presets)
         sheet.notes.push_back(short_name(preset) + " is not a picture; drop it by itself to open it.");
     if (!sorted.other.empty())
@@ -124,15 +124,13 @@ void propose_maps(Editor& editor, const std::vector<std::string>& files) {
         const std::vector<std::string> inside = folder ? files_in(utf8_to_path(name)) : std::vector{name};
         for (const std::string& file : inside) sort_file(editor.registry, file, sorted);
     }
-    if (sorted.maps.empty() && sorted.meshes.size() + sorted.environments.size() == 1) {
-        for (const std::string& mesh : sorted.meshes) use_mesh(editor, mesh);
-        for (const std::string& light : sorted.environments) use_environment(editor, light);
-    } else if (sorted.maps.empty())
-        log_line(editor, ui::Severity::Warning,
-                 (files.size() == 1 ? short_name(files[0]) : std::string("What was dropped")) +
-                     " holds no pictures that could be maps.");
-    else
-        offer_sheet(editor, sorted);
+    if (!sorted.maps.empty()) return offer_sheet(editor, sorted);
+    const std::size_t meshes = sorted.meshes.size(), lights = sorted.environments.size();
+    if (meshes == 1 && lights == 0) return use_mesh(editor, sorted.meshes[0]);
+    if (meshes == 0 && lights == 1) return use_environment(editor, sorted.environments[0]);
+    log_line(editor, ui::Severity::Warning,
+             (files.size() == 1 ? short_name(files[0]) : std::string("What was dropped")) +
+                 " holds no pictures that could be maps.");
 }
 
 void take_dropped(Editor& editor, const ui::request::Dropped& dropped) {

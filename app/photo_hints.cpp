@@ -1,19 +1,13 @@
 #include "app/photo_hints.h"
 
+#include "renderer/core/format.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace patina {
 
 namespace {
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-    std::array<char, 240> text{};
-    std::snprintf(text.data(), text.size(), format, values...);
-    return text.data();
-}
 
 std::string gain(const Estimate& e) {
     return formatted(" (mean ΔE %.1f → about %.1f).", double(e.now), double(e.delta_e));

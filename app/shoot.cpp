@@ -1,25 +1,17 @@
 #include "app/shoot.h"
 
 #include "materials/text_io.h"
+#include "renderer/core/format.h"
 #include "renderer/core/image_io.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace patina {
 
 namespace {
 
 constexpr float kPaper = 0.5f;  ///< display value where a photo does not reach
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-    std::array<char, 240> text{};
-    std::snprintf(text.data(), text.size(), format, values...);
-    return text.data();
-}
 
 }  // namespace
 

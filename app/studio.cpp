@@ -2,22 +2,17 @@
 
 #include "app/paths.h"
 #include "app/program_store_io.h"
+#include "renderer/core/format.h"
 #include "renderer/reference.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace patina {
 
 namespace {
 
-std::string percent(double share) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.2g %%", 100.0 * share);
-    return text.data();
-}
+std::string percent(double share) { return formatted("%.2g %%", 100.0 * share); }
 
 std::string confidence_text(const ReferenceProgress& progress, double wanted) {
     std::string text = "reference: " + std::to_string(progress.samples) + " samples a pixel";

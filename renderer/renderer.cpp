@@ -28,16 +28,17 @@ std::shared_ptr<const T> borrowed(const T& value) {
 }  // namespace
 
 void Renderer::State::bind_light(const GpuEnvironment& environment) const {
-    bind_texture(gl::kPanoramaUnit, GL_TEXTURE_2D, *environment.panorama);
-    bind_texture(gl::kLevelsUnit, GL_TEXTURE_CUBE_MAP_ARRAY, environment.levels);
-    bind_texture(gl::kIrradianceUnit, GL_TEXTURE_CUBE_MAP, environment.irradiance);
-    bind_texture(gl::kBrdfUnit, GL_TEXTURE_2D, brdf);
-    bind_texture(gl::kLobesUnit, GL_TEXTURE_3D, lobes);
+    gl::bind_texture(gl::kPanoramaUnit, GL_TEXTURE_2D, *environment.panorama);
+    gl::bind_texture(gl::kLevelsUnit, GL_TEXTURE_CUBE_MAP_ARRAY, environment.levels);
+    gl::bind_texture(gl::kIrradianceUnit, GL_TEXTURE_CUBE_MAP, environment.irradiance);
+    gl::bind_texture(gl::kBrdfUnit, GL_TEXTURE_2D, brdf);
+    gl::bind_texture(gl::kLobesUnit, GL_TEXTURE_3D, lobes);
 }
 
 void Renderer::State::bind_maps(const Scene& scene) const {
     for (std::size_t i = 0; i < scene.maps.size(); ++i)
-        if (scene.maps[i]) bind_texture(gl::kFirstMapUnit + GLuint(i), GL_TEXTURE_2D, scene.maps[i]->texture);
+        if (scene.maps[i])
+            gl::bind_texture(gl::kFirstMapUnit + GLuint(i), GL_TEXTURE_2D, scene.maps[i]->texture);
 }
 
 /// After the mesh, at the far plane: only what the mesh leaves free is computed.
@@ -97,10 +98,10 @@ void Renderer::State::draw_display(const View& view, const RenderTarget& target)
     const gl::Program& program =
         display(target.samples, is_data_view(view.debug) ? Tonemap::None : view.tonemap, is_stored);
     if (is_stored) {
-        bind_texture(gl::kPictureUnit, GL_TEXTURE_2D, target.stored.colors);
+        gl::bind_texture(gl::kPictureUnit, GL_TEXTURE_2D, target.stored.colors);
         gl::bind_surface_pixels(*target.stored.surfaces);
     } else {
-        bind_texture(gl::kPictureUnit, target.radiance_kind(), target.radiance);
+        gl::bind_texture(gl::kPictureUnit, target.radiance_kind(), target.radiance);
     }
     glUseProgram(program.name());
     const glm::vec3 plain = glm::clamp(view.plain_color, 0.0f, 1.0f);

@@ -85,12 +85,6 @@ Features features_for(const Scene& scene, const GpuEnvironment& environment) {
     return features_of(scene.material, bound, scene.view, environment.sharpest);
 }
 
-void bind_texture(GLuint unit, GLenum kind, const gl::Texture& texture) {
-    glActiveTexture(GL_TEXTURE0 + unit);
-    glBindSampler(unit, 0);
-    glBindTexture(kind, texture.name());
-}
-
 void set_switches() {
     for (const GLenum off : {GL_BLEND, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_FRAMEBUFFER_SRGB,
                              GL_RASTERIZER_DISCARD, GL_COLOR_LOGIC_OP, GL_SAMPLE_ALPHA_TO_COVERAGE})
@@ -134,8 +128,7 @@ const gl::Program& Renderer::State::reference(Features features, std::size_t lig
     const int kind = int(std::min<std::size_t>(lights, 2));
     gl::Program& program = references[{features, kind}];
     if (program) return program;
-    std::vector<std::string> defines = defines_of(features);
-    if ((features & kMaps) != 0) defines.emplace_back("HAS_STORED_MAPS");
+    std::vector<std::string> defines = stored_defines(features);
     defines.push_back("PANORAMA_LIGHTS=" + std::to_string(kind));
     program = compiled("display.vert.glsl", "reference.frag.glsl", defines);
     return program;

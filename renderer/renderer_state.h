@@ -27,7 +27,6 @@ LightLayout layout_of(const GpuEnvironment& environment);
 /// How many lights' colours the panorama's alpha needs (light.glsl).
 std::size_t colored_lights(const GpuEnvironment& environment);
 Features features_for(const Scene& scene, const GpuEnvironment& environment);
-void bind_texture(GLuint unit, GLenum kind, const gl::Texture& texture);
 /// As every pass over a mesh needs them.
 void set_switches();
 
@@ -43,7 +42,8 @@ inline constexpr Features kMaps = Features(Feature::AlbedoMap) | Features(Featur
                                   Features(Feature::NormalMap) | Features(Feature::EmissionMap);
 /// maps: of kMaps.
 SurfaceMaps kind_of(Features maps);
-std::vector<std::string> stored_defines(Features maps);
+/// Of shaders that read a surface from its layers.
+std::vector<std::string> stored_defines(Features features);
 
 inline std::string stored_width() { return "STORED_WIDTH=" + std::to_string(GpuSurfaces::kWidth) + "u"; }
 inline constexpr int kIdleScratch = 32;  ///< pictures after which where they were rasterised is given back

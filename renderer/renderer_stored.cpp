@@ -49,18 +49,17 @@ SurfaceMaps kind_of(Features maps) {
     return maps == 0 ? SurfaceMaps::None : SurfaceMaps::Some;
 }
 
-std::vector<std::string> stored_defines(Features maps) {
-    std::vector<std::string> defines = defines_of(maps);
-    if (maps != 0) defines.emplace_back("HAS_STORED_MAPS");
+std::vector<std::string> stored_defines(Features features) {
+    std::vector<std::string> defines = defines_of(features);
+    if ((features & kMaps) != 0) defines.emplace_back("HAS_STORED_MAPS");
     return defines;
 }
 
 const gl::Program& Renderer::State::stored_surface(Features features) {
     gl::Program& program = stored.shade[features];
     if (program) return program;
-    std::vector<std::string> defines = defines_of(features);
+    std::vector<std::string> defines = stored_defines(features);
     defines.emplace_back("HAS_STORED");
-    if ((features & kMaps) != 0) defines.emplace_back("HAS_STORED_MAPS");
     program = compiled("display.vert.glsl", "mesh.frag.glsl", defines);
     return program;
 }
@@ -156,7 +155,7 @@ void Renderer::State::draw_resolved(const RenderTarget& target) {
     if (!program)
         program = compiled("display.vert.glsl", "resolved.frag.glsl",
                            with_samples({"HAS_STORED", stored_width()}, target.samples));
-    bind_texture(gl::kPictureUnit, GL_TEXTURE_2D, target.stored.colors);
+    gl::bind_texture(gl::kPictureUnit, GL_TEXTURE_2D, target.stored.colors);
     gl::bind_surface_pixels(*target.stored.surfaces);
     gl::draw_all(program.name(), nothing.name(), {0, 0, target.size});
 }

@@ -1,25 +1,17 @@
 #include "ui/ab_parts.h"
 
+#include "renderer/core/format.h"
 #include "renderer/core/metrics.h"
 #include "ui/widgets.h"
 
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 
 namespace patina::ui {
 namespace {
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-    std::array<char, 120> text{};
-    std::snprintf(text.data(), text.size(), format, values...);
-    return text.data();
-}
 
 void draw_side_title(const std::string& text, float x, float y, bool to_the_left) {
     if (text.empty()) return;

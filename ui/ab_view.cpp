@@ -96,14 +96,18 @@ void draw_ab_choice(PanelContext& context) {
     for (const std::string& title : titles) options.push_back({title, "What the view is held against."});
     if (combo(context, "sheet.against", options, index,
               {.width = std::min(px(190), 0.4f * ImGui::GetContentRegionAvail().x),
-               .tooltip = "Hold the view against another one, or against its photo."}))
-        ab.against = choices[std::size_t(index)], context.ui.photo_tool = PhotoTool::None;
+               .tooltip = "Hold the view against another one, or against its photo."})) {
+        ab.against = choices[std::size_t(index)];
+        context.ui.photo_tool = PhotoTool::None;
+    }
     if (ab.against == kAgainstNothing) return;
     ImGui::SameLine();
     int how = index_of(kHows, ab.how);
     if (segmented(context, "sheet.how", options_of(kHows), how,
-                  std::min(px(300), ImGui::GetContentRegionAvail().x)))
-        ab.how = kHows[std::size_t(how)].value, context.ui.photo_tool = PhotoTool::None;
+                  std::min(px(300), ImGui::GetContentRegionAvail().x))) {
+        ab.how = kHows[std::size_t(how)].value;
+        context.ui.photo_tool = PhotoTool::None;
+    }
 }
 
 void probe_view(PanelContext& context, int view, const Rect& rect) {

@@ -1,5 +1,6 @@
 // The accuracy meter: what each side of the viewport shows, how far the shading is from the reference, and
 // what it costs.
+#include "renderer/core/format.h"
 #include "ui/ab_parts.h"
 #include "ui/icons.h"
 #include "ui/panels.h"
@@ -9,9 +10,7 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,11 +18,6 @@
 namespace patina::ui {
 namespace {
 
-std::string formatted(const char* format, double value) {
-    std::array<char, 48> text{};
-    std::snprintf(text.data(), text.size(), format, value);
-    return text.data();
-}
 std::string percent(double share) {
     return formatted(share < 0.001 ? "%.3f %%" : share < 0.1 ? "%.2f %%" : "%.1f %%", 100.0 * share);
 }

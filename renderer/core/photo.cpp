@@ -1,6 +1,7 @@
 #include "renderer/core/photo.h"
 
 #include "renderer/core/color_difference.h"
+#include "renderer/core/format.h"
 #include "renderer/core/homography.h"
 
 #include <glm/common.hpp>
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -244,11 +244,6 @@ std::optional<float> number_in(const std::string& text) {
     return below > 0.0 ? std::optional(float(value / below)) : std::nullopt;
 }
 
-std::string short_text(const char* format, double value) {
-    std::array<char, 48> text{};
-    std::snprintf(text.data(), text.size(), format, value);
-    return text.data();
-}
 }  // namespace
 
 CameraExif exif_of(std::span<const std::pair<std::string, std::string>> metadata) {
@@ -280,11 +275,11 @@ std::string describe(const CameraExif& exif) {
     if (exif.camera.find_first_not_of(' ') != std::string::npos) parts.push_back(exif.camera);
     if (exif.exposure_s)
         parts.push_back(*exif.exposure_s < 0.4f && *exif.exposure_s > 0.0f
-                            ? short_text("1/%.0f s", 1.0 / double(*exif.exposure_s))
-                            : short_text("%.3g s", double(*exif.exposure_s)));
-    if (exif.f_number) parts.push_back(short_text("f/%.3g", double(*exif.f_number)));
-    if (exif.iso) parts.push_back(short_text("ISO %.0f", double(*exif.iso)));
-    if (exif.focal_mm) parts.push_back(short_text("%.4g mm", double(*exif.focal_mm)));
+                            ? formatted("1/%.0f s", 1.0 / double(*exif.exposure_s))
+                            : formatted("%.3g s", double(*exif.exposure_s)));
+    if (exif.f_number) parts.push_back(formatted("f/%.3g", double(*exif.f_number)));
+    if (exif.iso) parts.push_back(formatted("ISO %.0f", double(*exif.iso)));
+    if (exif.focal_mm) parts.push_back(formatted("%.4g mm", double(*exif.focal_mm)));
     std::string text;
     for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
     return text;

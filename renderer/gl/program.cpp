@@ -264,4 +264,10 @@ Program program_from(std::span<const std::byte> bytes) {
     return program;
 }
 
+void bind_texture(GLuint unit, GLenum kind, const Texture& texture) {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindSampler(unit, 0);
+    glBindTexture(kind, texture.name());
+}
+
 }  // namespace patina::gl

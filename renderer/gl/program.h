@@ -61,4 +61,7 @@ inline constexpr GLuint kFrameSlot = 0;               ///< uniform buffer bindin
 inline constexpr GLuint kMaterialSlot = 1;            ///< and of MaterialBlock
 inline constexpr GLuint kPointSlot = 2;               ///< and of PointBlock
 
+/// To be read through the texture's own parameters. Leaves the unit active.
+void bind_texture(GLuint unit, GLenum kind, const Texture& texture);
+
 }  // namespace patina::gl

@@ -24,12 +24,6 @@ glm::vec3 light_color(const std::vector<ExtractedLight>& lights, glm::vec3 direc
     return E * (3.0f / std::max(E.x + E.y + E.z, 1e-30f));
 }
 
-void bind_to(GLuint unit, const Texture& texture) {
-    glActiveTexture(GL_TEXTURE0 + unit);
-    glBindSampler(unit, 0);
-    glBindTexture(GL_TEXTURE_2D, texture.name());
-}
-
 void no_filter(GLenum kind) {
     for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
         glTexParameteri(kind, filter, GL_NEAREST);
@@ -130,7 +124,7 @@ void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps) {
         }
     }
     target.surface.begin();
-    bind_to(kFragmentPlacesUnit, target.counts);
+    bind_texture(kFragmentPlacesUnit, GL_TEXTURE_2D, target.counts);
     glDepthFunc(GL_ALWAYS);
     glUseProgram(target.resting.name());
     glBindVertexArray(target.nothing.name());
@@ -168,8 +162,8 @@ void write_reference_mean(const ReferenceTarget& target, int points, float weigh
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glViewport(0, 0, target.size.x, target.size.y);
     glUseProgram(target.mean.name());
-    bind_to(kPictureUnit, target.sum);
-    bind_to(kFragmentPlacesUnit, target.counts);
+    bind_texture(kPictureUnit, GL_TEXTURE_2D, target.sum);
+    bind_texture(kFragmentPlacesUnit, GL_TEXTURE_2D, target.counts);
     glUniform3f(glGetUniformLocation(target.mean.name(), "reference_weight"), float(points), weight,
                 largest_radiance(to));
     glBindVertexArray(target.nothing.name());

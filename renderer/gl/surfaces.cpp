@@ -133,12 +133,6 @@ Texture make_mixed(Sorted& fragments) {
                         fragments.mixed.data());
 }
 
-void bind(GLuint unit, GLenum kind, const Texture& texture) {
-    glActiveTexture(GL_TEXTURE0 + unit);
-    glBindSampler(unit, 0);
-    glBindTexture(kind, texture.name());
-}
-
 int most_rows() {
     GLint most = 1024;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
@@ -200,9 +194,9 @@ void SurfaceScratch::begin() const {
 }
 
 void SurfaceScratch::bind_layers() const {
-    bind(kFragmentPlacesUnit, GL_TEXTURE_2D, fragments_);
+    bind_texture(kFragmentPlacesUnit, GL_TEXTURE_2D, fragments_);
     for (std::size_t i = 0; i < layers_.size(); ++i)
-        if (layers_[i]) bind(kFirstStoredUnit + GLuint(i), GL_TEXTURE_2D, layers_[i]);
+        if (layers_[i]) bind_texture(kFirstStoredUnit + GLuint(i), GL_TEXTURE_2D, layers_[i]);
 }
 
 void SurfaceScratch::share_depth() const {
@@ -215,7 +209,7 @@ std::vector<float> SurfaceScratch::read_fragments(const SurfacePrograms& program
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
     attach(0, GL_TEXTURE_2D, four);
     require_complete(size_px_);
-    bind(kPictureUnit, kind(), fragments_);
+    bind_texture(kPictureUnit, kind(), fragments_);
     draw_all(programs.fragments, programs.nothing, {0, 0, size_px_});
     const KeepReadState pack;
     std::vector<float> fragments(4 * texels_in(size_px_));
@@ -250,8 +244,9 @@ GpuSurfaces SurfaceScratch::finish(const SurfacePrograms& programs) const {
     }
     draw_into(layers);
     require_complete(extent);
-    bind(kFragmentPlacesUnit, GL_TEXTURE_2D, places);
-    for (int i = 0; i < layers; ++i) bind(kFirstStoredUnit + GLuint(i), kind(), layers_[std::size_t(i)]);
+    bind_texture(kFragmentPlacesUnit, GL_TEXTURE_2D, places);
+    for (int i = 0; i < layers; ++i)
+        bind_texture(kFirstStoredUnit + GLuint(i), kind(), layers_[std::size_t(i)]);
     draw_all(programs.sorted, programs.nothing, {0, 0, extent});
     surfaces.fragment_of_pixel =
         make_texture(GL_R32UI, size_px_, {GL_RED_INTEGER, GL_UNSIGNED_INT}, fragments.pixels.data());
@@ -264,12 +259,12 @@ GpuSurfaces SurfaceScratch::finish(const SurfacePrograms& programs) const {
 
 void bind_surface_layers(const GpuSurfaces& surfaces) {
     for (std::size_t i = 0; i < surfaces.layers.size(); ++i)
-        if (surfaces.layers[i]) bind(kFirstStoredUnit + GLuint(i), GL_TEXTURE_2D, surfaces.layers[i]);
+        if (surfaces.layers[i]) bind_texture(kFirstStoredUnit + GLuint(i), GL_TEXTURE_2D, surfaces.layers[i]);
 }
 
 void bind_surface_pixels(const GpuSurfaces& surfaces) {
-    bind(kFragmentOfPixelUnit, GL_TEXTURE_2D, surfaces.fragment_of_pixel);
-    bind(kFragmentsOfSamplesUnit, GL_TEXTURE_2D, surfaces.fragments_of_samples);
+    bind_texture(kFragmentOfPixelUnit, GL_TEXTURE_2D, surfaces.fragment_of_pixel);
+    bind_texture(kFragmentsOfSamplesUnit, GL_TEXTURE_2D, surfaces.fragments_of_samples);
 }
 
 void begin_shading(StoredPicture& picture, std::shared_ptr<const GpuSurfaces> surfaces, bool full_float) {

@@ -150,6 +150,11 @@ void write_picture(const fs::path& file, int red, int green, int blue, int side)
     save_image(file, image);
 }
 
+void write_text(const std::filesystem::path& file, const std::string& text) {
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary) << text;
+}
+
 std::string read_text(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};

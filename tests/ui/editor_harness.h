@@ -67,6 +67,8 @@ std::vector<std::string> drive_arguments(const Folder& home, const std::string& 
 
 /// A picture of one colour.
 void write_picture(const std::filesystem::path& file, int red, int green, int blue, int side = 64);
+/// A text file, its folder included.
+void write_text(const std::filesystem::path& file, const std::string& text);
 std::string read_text(const std::filesystem::path& file);
 bool wait_for_file(const std::filesystem::path& file, std::chrono::seconds limit = std::chrono::seconds(60));
 

@@ -15,85 +15,6 @@ using namespace patina;
 using namespace patina::test;
 namespace fs = std::filesystem;
 
-/// A scanned material as it is downloaded: metal with rust, packed maps, a DirectX normal map.
-fs::path make_scan(const Folder& home) {
-    const fs::path folder = home / "Rusty_Metal_2K";
-    write_picture(folder / "Rusty_Metal_2K_BaseColor.png", 180, 90, 60);
-    write_picture(folder / "Rusty_Metal_2K_ORM.png", 255, 128, 200);
-    write_picture(folder / "Rusty_Metal_2K_NormalDX.png", 128, 128, 255);
-    write_picture(folder / "Rusty_Metal_2K_Displacement.png", 10, 10, 10);
-    return folder;
-}
-
-void write_preset(const fs::path& file, const std::string& text) {
-    fs::create_directories(file.parent_path());
-    std::ofstream(file, std::ios::binary) << text;
-}
-
-TEST(Editor, takes_a_folder_of_maps_in_and_gives_a_preset_out) {
-    const Folder home;
-    const fs::path scan = make_scan(home);
-    EXPECT_DRIVEN(drive(home, R"(
-wait idle
-expect clean
-drop ")" + scan.string() + R"("
-wait until item import.apply
-click import.apply
-wait idle
-expect dirty
-expect albedo.state=ok
-expect roughness.channel=g
-expect metallic.channel=b
-expect normal.convention=directx
-expect roughness=1
-drag material.roughness.bar -60 0
-wait idle
-expect roughness<0.8
-expect undo=Roughness
-drag material.metallic.bar -40 0
-expect metallic<0.9
-key ctrl+z
-expect metallic=1
-key ctrl+z
-expect roughness=1
-expect redo=Roughness
-key ctrl+shift+z
-expect roughness<0.8
-expect metallic=1
-key ctrl+s
-wait until item browser.file_name
-click browser.file_name
-key ctrl+a
-type rust
-key enter
-wait until clean
-expect file~rust.json
-expect status~Saved
-)"));
-    const Material saved = load_material(home / "rust.json").material;
-    EXPECT_EQ(saved.albedo.map, "Rusty_Metal_2K/Rusty_Metal_2K_BaseColor.png");
-    EXPECT_EQ(saved.roughness.map, "Rusty_Metal_2K/Rusty_Metal_2K_ORM.png");
-    EXPECT_EQ(saved.ao.map, saved.roughness.map);
-    EXPECT_EQ(saved.metallic.channel, Channel::B);
-    EXPECT_EQ(saved.normal.convention, NormalConvention::DirectX);
-    EXPECT_LT(saved.roughness.value, 0.8f);
-    EXPECT_GT(saved.roughness.value, 0.3f);
-    EXPECT_EQ(saved.metallic.value, 1.0f);
-    const std::string before = read_text(home / "rust.json");
-    EXPECT_DRIVEN(drive(home, R"(
-wait idle
-expect clean
-expect roughness<0.8
-expect albedo.state=ok
-expect normal.state=ok
-key ctrl+s
-wait idle
-expect clean
-)",
-                        {(home / "rust.json").string()}));
-    EXPECT_EQ(read_text(home / "rust.json"), before);
-}
-
 TEST(Editor, draws_nothing_while_nothing_changes) {
     const Folder home;
     EXPECT_DRIVEN(drive(home, R"(
@@ -134,7 +55,7 @@ expect views=0
 TEST(Editor, draws_nothing_while_its_window_is_hidden_and_catches_up_when_it_is_back) {
     const Folder home;
     const fs::path file = home / "gold.json", sign = home / "ready.png";
-    write_preset(file, R"({"name": "Gold", "roughness": {"value": 0.25}})");
+    write_text(file, R"({"name": "Gold", "roughness": {"value": 0.25}})");
     Program program(home, drive_arguments(home, R"(
 wait idle
 screenshot )" + sign.string() + R"(
@@ -150,14 +71,14 @@ expect frames>0
 )",
                                           {file.string()}));
     ASSERT_TRUE(wait_for_file(sign)) << program.wait().errors;
-    write_preset(file, R"({"name": "Gold", "roughness": {"value": 0.75}, "metallic": {"value": 1}})");
+    write_text(file, R"({"name": "Gold", "roughness": {"value": 0.75}, "metallic": {"value": 1}})");
     EXPECT_DRIVEN(program.wait());
 }
 
 TEST(Editor, gives_unsaved_work_back_after_a_crash_and_to_one_window_only) {
     const Folder home;
     const fs::path sign = home / "ready.png";
-    write_preset(home / "gold.json", R"({"name": "Gold", "roughness": {"value": 0.25}})");
+    write_text(home / "gold.json", R"({"name": "Gold", "roughness": {"value": 0.25}})");
     Program crashing(home, drive_arguments(home, R"(
 wait idle
 drag material.metallic.bar 90 0
@@ -204,8 +125,8 @@ TEST(Editor, keeps_a_preset_with_a_missing_and_a_broken_map_as_it_is) {
   "roughness": { "value": 0.5, "map": "./broken.png" }
 }
 )";
-    write_preset(home / "p" / "lost.json", text);
-    write_preset(home / "p" / "broken.png", "this is no picture");
+    write_text(home / "p" / "lost.json", text);
+    write_text(home / "p" / "broken.png", "this is no picture");
     EXPECT_DRIVEN(drive(home, R"(
 wait idle
 expect albedo.state=missing
@@ -232,7 +153,7 @@ TEST(Editor, reads_a_map_again_that_was_painted_over_on_disk) {
     const Folder home;
     const fs::path map = home / "color.png", sign = home / "ready.png";
     write_picture(map, 200, 30, 30);
-    write_preset(home / "red.json", R"({"albedo": {"value": [1, 1, 1], "map": "color.png"}})");
+    write_text(home / "red.json", R"({"albedo": {"value": [1, 1, 1], "map": "color.png"}})");
     Program program(home, drive_arguments(home, R"(
 wait idle
 expect albedo.state=ok
@@ -324,44 +245,6 @@ expect dirty            # the save was called off, so the new document was, too
 )"));
 }
 
-TEST(Editor, shows_an_imported_set_on_the_mesh_and_under_the_light_that_lie_with_it) {
-    const Folder home;
-    const fs::path scan = make_scan(home);
-    std::ofstream(scan / "plate.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
-    save_image(scan / "evening.exr", make_image(32, 16, 3, PixelType::F32));
-    EXPECT_DRIVEN(drive(home, "wait idle\ndrop " + scan.string() +
-                                  "\nwait until item import.apply\nclick import.apply\nwait until "
-                                  "environment~evening.exr\nwait idle\nexpect "
-                                  "mesh~plate.obj\nexpect triangles=2\nexpect albedo.state=ok\nexpect "
-                                  "albedo.map~BaseColor\n"));
-}
-
-TEST(Editor, opens_presets_meshes_and_environments_that_are_dropped_on_it) {
-    const Folder home;
-    write_preset(home / "gold.json", R"({"name": "Gold", "metallic": {"value": 1}})");
-    write_preset(home / "roof.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
-    Image sky = make_image(64, 32, 3, PixelType::F32);
-    for (int x = 0; x < 64; ++x) set_texel(sky, x, 3, 0, 20.0f);
-    save_image(home / "evening.exr", sky);
-    EXPECT_DRIVEN(drive(home, "wait idle\ndrop " + (home / "gold.json").string() + " at viewport\n" +
-                                  "wait until metallic=1\ndrop " + (home / "roof.obj").string() +
-                                  "\nwait until mesh~roof.obj\nwait idle\nexpect triangles=2\ndrop " +
-                                  (home / "evening.exr").string() +
-                                  "\nwait until environment~evening.exr\nwait idle\nexpect clean\ndrop " +
-                                  (home / "nothing.txt").string() + "\nwait until status~neither\n"));
-}
-
-TEST(Editor, goes_back_to_what_worked_when_a_light_or_mesh_cannot_be_read) {
-    const Folder home;
-    write_preset(home / "broken.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 32 +X 64\nhalf");
-    write_preset(home / "flat.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n");
-    EXPECT_DRIVEN(
-        drive(home, "wait idle\ndrop " + (home / "broken.hdr").string() +
-                        "\nwait until status~broken.hdr\nwait idle\nexpect environment=studio\ndrop " +
-                        (home / "flat.obj").string() +
-                        "\nwait until status~flat.obj\nwait idle\nexpect mesh=sphere\nexpect clean\n"));
-}
-
 TEST(Editor, exports_the_picture_for_the_screen_and_for_measuring) {
     const Folder home;
     for (const char* name : {"shot.png", "shot.exr"})
@@ -435,7 +318,7 @@ wait until status~"no reference yet"
 
 TEST(Editor, starts_with_corrupt_settings_and_a_preset_that_is_not_there) {
     const Folder home;
-    write_preset(home / "state" / "settings.json", "{ \"window_width\": ");
+    write_text(home / "state" / "settings.json", "{ \"window_width\": ");
     EXPECT_DRIVEN(drive(home, "wait idle\nexpect log~settings\nexpect log~missing.json\nexpect clean\n",
                         {(home / "missing.json").string()}));
     const std::string settings = read_text(home / "state" / "settings.json");
