@@ -1,5 +1,6 @@
 #include "app/comparison_report.h"
 
+#include "app/comparison_file.h"
 #include "app/reconcile_load.h"
 #include "app/report_pdf.h"
 #include "materials/material_io.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 namespace patina {
 
@@ -76,25 +78,28 @@ ComparisonReport::ComparisonReport(ComparisonScenes& scenes, const Registry& reg
       options_(std::move(options)),
       places_(places_of(comparison_)) {}
 
+void ComparisonReport::load_view() {
+    const ViewPlace place = places_[shots_.size()];
+    const std::optional<Photo>& photo = lighting_at(comparison_, place).photo;
+    loaded_ = Loaded{scenes_.scene(place), photo ? scenes_.photo(photo->file) : nullptr};
+}
+
 void ComparisonReport::draw_view() {
     const ViewPlace place = places_[shots_.size()];
-    const Scene scene = scenes_.scene(place);
-    const glm::ivec2 size(options_.picture_px);
-    const ComparedPreset& preset = preset_at(comparison_, place);
+    const Loaded loaded = *std::exchange(loaded_, std::nullopt);
+    const Scene& scene = loaded.scene;
     const Lighting& light = lighting_at(comparison_, place);
+    const RenderTarget& drawn = scenes_.draw(scene, glm::ivec2(options_.picture_px));
     Shot shot{.place = place,
-              .material = preset_title(preset, scene.material),
+              .material = preset_title(preset_at(comparison_, place), scene.material),
               .light = lighting_title(registry_, light),
-              .picture = scenes_.display(scene, size)};
-    if (std::ranges::none_of(materials_, [&](const auto& row) { return row.first == preset.preset; }))
-        materials_.emplace_back(preset.preset, scene.material);
-    if (light.photo) {
-        const LoadedPhoto& photo = scenes_.photo(light.photo->file);
-        shot.photo = shoot_photo(*light.photo, photo, scenes_.radiance(scene, size));
-        if (options_.hints && shot.photo->residual.pixels > 0)
-            hints_.emplace(photo_in_view(*light.photo, photo.linear, trial_size()), light.photo->region,
+              .picture = scenes_.renderer().read_display(drawn),
+              .photo = loaded.photo};
+    if (shot.photo) {
+        shot.radiance = scenes_.renderer().read_radiance(drawn);
+        if (options_.hints)
+            hints_.emplace(photo_in_view(*light.photo, shot.photo->linear, trial_size()), light.photo->region,
                            scene);
-        shot.photo->linear = {};  // not shown
     }
     if (options_.reference_samples > 0) {
         if (!reference_) reference_.emplace(scenes_.renderer(), options_.reference_samples);
@@ -106,13 +111,13 @@ void ComparisonReport::draw_view() {
 
 void ComparisonReport::step_hints() {
     if (hints_->step([&](const Scene& trial) { return scenes_.radiance(trial, trial_size()); })) return;
-    shots_.back().photo->hints = hints_->sentences();
+    shots_.back().hints = hints_->sentences();
     hints_.reset();
 }
 
 void ComparisonReport::step_reference() {
     if (reference_->step()) return;
-    shots_.back().error = reference_->result();
+    shots_.back().reference = reference_->result();
     gathers_ = false;
 }
 
@@ -121,8 +126,10 @@ bool ComparisonReport::step() {
         step_hints();
     else if (gathers_)
         step_reference();
-    else if (shots_.size() < places_.size())
+    else if (loaded_)
         draw_view();
+    else if (shots_.size() < places_.size())
+        load_view();
     return unfinished() || shots_.size() < places_.size();
 }
 
@@ -161,20 +168,20 @@ void ComparisonReport::add_photos(Report& report) const {
     for (const Shot& shot : shots_) {
         if (!shot.photo) continue;
         const Photo& photo = *lighting_at(comparison_, shot.place).photo;
-        const std::string camera = describe(shot.photo->exif);
-        section.pictures.push_back(
-            {shot.material + ", " + shot.light,
-             {{shot.photo->title + (camera.empty() ? "" : " – " + camera), shot.photo->picture},
-              {"Render", shot.picture},
-              {"Difference: black is none, white ΔE " + number(double(kHeatWhite)) +
-                   " and more, grey not compared",
-               shot.photo->heat}}});
+        const PhotoShot held = shoot_photo(photo, *shot.photo, shot.radiance);
+        const std::string camera = describe(held.exif);
+        section.pictures.push_back({shot.material + ", " + shot.light,
+                                    {{held.title + (camera.empty() ? "" : " – " + camera), held.picture},
+                                     {"Render", shot.picture},
+                                     {"Difference: black is none, white ΔE " + number(double(kHeatWhite)) +
+                                          " and more, grey not compared",
+                                      held.heat}}});
         std::vector<std::string> cells{shot.material, shot.light};
-        std::ranges::copy(residual_cells(shot.photo->residual), std::back_inserter(cells));
+        std::ranges::copy(residual_cells(held.residual), std::back_inserter(cells));
         table.rows.push_back(std::move(cells));
-        for (const std::string& hint : shot.photo->hints)
+        for (const std::string& hint : shot.hints)
             section.notes.push_back(shot.material + ", " + shot.light + ": " + hint);
-        section.notes.push_back(shot.photo->title + ": " + balance_text(photo) + ".");
+        section.notes.push_back(held.title + ": " + balance_text(photo) + ".");
     }
     if (table.rows.empty()) return;
     std::vector<std::string> unique;
@@ -194,27 +201,30 @@ void ComparisonReport::add_errors(Report& report) const {
     ReportTable table{
         .header = {"Material", "Light", "Error, rms", "95 % within", "Mean FLIP", "Known within"},
         .rows = {}};
-    for (const Shot& shot : shots_)
-        table.rows.push_back({shot.material, shot.light, formatted("%.2f %%", 100.0 * shot.error->error.rms),
-                              formatted("%.2f %%", 100.0 * shot.error->error.p95),
-                              formatted("%.3f", shot.error->flip),
-                              formatted("%.2f %%", 100.0 * shot.error->known)});
+    for (const Shot& shot : shots_) {
+        const ReferenceError found = error_of(*shot.reference);
+        table.rows.push_back({shot.material, shot.light, formatted("%.2f %%", 100.0 * found.error.rms),
+                              formatted("%.2f %%", 100.0 * found.error.p95), formatted("%.3f", found.flip),
+                              formatted("%.2f %%", 100.0 * found.known)});
+    }
     section.table = std::move(table);
-    section.notes.push_back("The shading against the reflectance integral, sampled with " +
-                            std::to_string(reference_->samples()) +
-                            " points a pixel, as shares of the light on the object; the last column is how "
-                            "well the samples know it.");
+    section.notes.push_back(formatted(
+        "The shading against the reflectance integral, as shares of the light on the object; the last "
+        "column is how well 95 of 100 pixels of the integral are known: sampled to %.0f %%, with at "
+        "most %d points a pixel.",
+        100.0 * kReferenceKnown, reference_->samples()));
     report.sections.push_back(std::move(section));
 }
 
-ReportSection ComparisonReport::material_section(const std::string& preset, const Material& material) const {
+/// As its file says it, whatever of it the pictures needed.
+ReportSection ComparisonReport::material_section(const fs::path& file) const {
+    const Material material = file.empty() ? Material{} : load_material(file).material;
     ReportSection section{.heading = "Material: " + material.name};
     if (!material.source.empty()) section.paragraphs.push_back("Values from: " + material.source);
     ReportTable table{.header = {"Parameter", "Value"}, .rows = {}};
     const bool has_maps = std::ranges::any_of(
         material_slots(), [&](const MaterialSlot& row) { return !map_of(material, row.slot).map->empty(); });
     if (has_maps) table.header.insert(table.header.end(), {"Map", "Size"});
-    const fs::path file = preset == "-" ? fs::path{} : find_preset(preset);
     ReportPictureRow maps;
     for (const MaterialParam& param : kMaterialParams) {
         std::vector<std::string> cells{std::string(param.label), values_text(param, material)};
@@ -263,17 +273,19 @@ ReportSection ComparisonReport::lights() const {
     return section;
 }
 
+/// To be run in the report's folder, like every command in it.
 std::string ComparisonReport::render_command(const Shot& shot) const {
-    const Lighting& light = lighting_at(comparison_, shot.place);
-    const Camera& camera = camera_of(comparison_, light);
-    const ComparedPreset& preset = preset_at(comparison_, shot.place);
-    std::string command = "patina render " + quoted(preset.preset) + " --mesh " + quoted(comparison_.mesh) +
+    const Comparison comparison = with_relative_paths(comparison_, options_.output);
+    const Lighting& light = lighting_at(comparison, shot.place);
+    const Camera& camera = camera_of(comparison, light);
+    const ComparedPreset& preset = preset_at(comparison, shot.place);
+    std::string command = "patina render " + quoted(preset.preset) + " --mesh " + quoted(comparison.mesh) +
                           " --env " + quoted(light.environment);
     if (light.rotation_deg != 0.0f) command += " --env-rotation " + number(double(light.rotation_deg));
     if (light.exposure_ev != 0.0f) command += " --exposure " + number(double(light.exposure_ev));
     command += " --tonemap " + std::string(named(kTonemaps, light.tonemap).id) + " --background " +
                std::string(named(kBackgrounds, light.background).id) + " --shading " +
-               std::string(named(kShadings, comparison_.shading).id) + " --camera " +
+               std::string(named(kShadings, comparison.shading).id) + " --camera " +
                number(double(camera.yaw_deg)) + "," + number(double(camera.pitch_deg)) + "," +
                number(double(camera.distance));
     const std::string side = std::to_string(options_.picture_px);
@@ -293,7 +305,7 @@ ReportSection ComparisonReport::making() const {
                                                          std::string(named(kShadings, shading).tooltip)},
                                          {"Mesh", path_to_utf8(utf8_to_path(comparison_.mesh).filename())}}};
     if (!options_.file.empty()) {
-        const std::string file = quoted(path_to_utf8(options_.file.filename()));
+        const std::string file = quoted(relative_map(options_.output, options_.file));
         section.commands.push_back("patina report " + file + " -o " +
                                    quoted(path_to_utf8(options_.output.filename())));
         section.commands.push_back("patina compare " + file + " -o sheet.png");
@@ -309,8 +321,14 @@ Report ComparisonReport::finish() const {
     report.sections.push_back(sheet());
     add_photos(report);
     add_errors(report);
-    for (const auto& [preset, material] : materials_)
-        report.sections.push_back(material_section(preset, material));
+    std::vector<fs::path> files;  // of those written up; "-" is no file
+    for (const ViewPlace place : places_) {
+        const std::string& preset = preset_at(comparison_, place).preset;
+        const fs::path file = preset == "-" ? fs::path{} : find_preset(preset);
+        if (std::ranges::find(files, file) != files.end()) continue;
+        files.push_back(file);
+        report.sections.push_back(material_section(file));
+    }
     report.sections.push_back(lights());
     report.sections.push_back(making());
     return report;

@@ -8,6 +8,7 @@
 #include "app/report.h"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,8 +33,8 @@ public:
     std::size_t views() const { return places_.size(); }
     std::size_t done() const { return shots_.size() - (unfinished() ? 1 : 0); }
     float progress() const;  ///< 0…1
-    /// Draws one picture: of the next view, or a trial for what is said of the last; false when all are
-    /// drawn.
+    /// Loads what the next view shows, draws it, or draws a trial for what is said of the last; false when
+    /// all are drawn.
     bool step();
     /// What was drawn, written up. Needs no GPU: a worker may do it.
     Report finish() const;
@@ -43,19 +44,27 @@ private:
         ViewPlace place;
         std::string material, light;
         Image picture;
-        std::optional<PhotoShot> photo;
-        std::optional<ReferenceError> error;
+        std::shared_ptr<const LoadedPhoto> photo;  ///< null: the view has none
+        Image radiance;                            ///< to hold against it
+        std::vector<std::string> hints;
+        std::optional<ReferencePictures> reference;
+    };
+    /// What the next view shows, ready to be drawn.
+    struct Loaded {
+        Scene scene;
+        std::shared_ptr<const LoadedPhoto> photo;
     };
     /// Trials are drawn smaller: nine roughnesses and seven colours of every view with a photo.
     glm::ivec2 trial_size() const { return glm::ivec2(options_.picture_px / 2); }
     bool unfinished() const { return hints_ || gathers_; }
+    void load_view();
     void draw_view();
     void step_hints();
     void step_reference();
     ReportSection sheet() const;
     void add_photos(Report& report) const;
     void add_errors(Report& report) const;
-    ReportSection material_section(const std::string& preset, const Material& material) const;
+    ReportSection material_section(const std::filesystem::path& file) const;  ///< empty: the default one
     ReportSection lights() const;
     ReportSection making() const;
     std::string render_command(const Shot& shot) const;
@@ -65,11 +74,11 @@ private:
     Comparison comparison_;
     ComparisonReportOptions options_;
     std::vector<ViewPlace> places_;
+    std::optional<Loaded> loaded_;
     std::vector<Shot> shots_;
     std::optional<HintSearch> hints_;           ///< of the last shot
     std::optional<ReferenceSearch> reference_;  ///< from the first view on that is held against it
     bool gathers_ = false;                      ///< for the last shot
-    std::vector<std::pair<std::string, Material>> materials_;  ///< by the comparison's name of the preset
 };
 
 /// Throws std::runtime_error where the name ends neither in .html nor in .pdf: before anything is computed.

@@ -102,7 +102,7 @@ private:
         }
         const Image radiance = scenes_.radiance(scene, options_.cell_px);
         sheet_.set_cell(column, row, options_.radiance ? radiance : scenes_.display(scene, options_.cell_px));
-        const PhotoShot shot = shoot_photo(*light.photo, scenes_.photo(light.photo->file), radiance);
+        const PhotoShot shot = shoot_photo(*light.photo, *scenes_.photo(light.photo->file), radiance);
         sheet_.set_cell(column + 1, row, options_.radiance ? without_coverage(shot.linear) : shot.picture);
         sheet_.set_cell(column + 2, row, cell(shot.heat));
         sheet_.set_cell_title(column + 2, row, short_text(shot.residual));
@@ -186,6 +186,8 @@ ComparisonScenes::ComparisonScenes(Renderer& renderer, SceneLoader& loader, cons
       options_(std::move(options)) {}
 
 Scene ComparisonScenes::scene(ViewPlace place) {
+    const auto given = std::ranges::find(given_, place, [](const auto& each) { return each.first; });
+    if (given != given_.end()) return given->second;
     const std::string& preset = preset_at(comparison_, place).preset;
     if (preset == kEditedPreset)
         throw std::runtime_error(
@@ -211,16 +213,17 @@ Scene ComparisonScenes::scene(ViewPlace place) {
     return scene;
 }
 
-const LoadedPhoto& ComparisonScenes::photo(const std::string& file) {
-    const auto found = photos_.find(file);
-    if (found != photos_.end()) return found->second;
-    return photos_.emplace(file, load_photo(registry_, file)).first->second;
+std::shared_ptr<const LoadedPhoto> ComparisonScenes::photo(const std::string& file) {
+    std::shared_ptr<const LoadedPhoto>& photo = photos_[file];
+    if (!photo) photo = std::make_shared<const LoadedPhoto>(load_photo(registry_, file));
+    return photo;
 }
 
-RenderTarget& ComparisonScenes::target(glm::ivec2 size_px) {
-    TargetHandle& handle = targets_[{size_px.x, size_px.y}];
-    if (!handle) handle = renderer_.make_target(size_px);
-    return *handle;
+const RenderTarget& ComparisonScenes::draw(const Scene& scene, glm::ivec2 size_px) {
+    TargetHandle& target = targets_[{size_px.x, size_px.y}];
+    if (!target) target = renderer_.make_target(size_px);
+    renderer_.draw(scene, *target, reuse());
+    return *target;
 }
 
 /// Where it pays to compile for it. One camera and mesh: presets without maps share a surface, and so do the
@@ -230,15 +233,11 @@ Reuse ComparisonScenes::reuse() const {
 }
 
 Image ComparisonScenes::radiance(const Scene& scene, glm::ivec2 size_px) {
-    RenderTarget& to = target(size_px);
-    renderer_.draw(scene, to, reuse());
-    return renderer_.read_radiance(to);
+    return renderer_.read_radiance(draw(scene, size_px));
 }
 
 Image ComparisonScenes::display(const Scene& scene, glm::ivec2 size_px) {
-    RenderTarget& to = target(size_px);
-    renderer_.draw(scene, to, reuse());
-    return renderer_.read_display(to);
+    return renderer_.read_display(draw(scene, size_px));
 }
 
 Image draw_comparison_sheet(Studio& studio, const Registry& registry, const Comparison& comparison,

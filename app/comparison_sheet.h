@@ -7,7 +7,10 @@
 #include "renderer/core/comparison.h"
 
 #include <map>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace patina {
 
@@ -15,20 +18,26 @@ namespace patina {
 /// …): only the size and --set go with one.
 void require_own_settings(const SceneOptions& options, const std::string& file);
 
-/// What a comparison's views need, loaded once.
+/// What a comparison's views need, loaded once, unless it was given.
 class ComparisonScenes {
 public:
     ComparisonScenes(Renderer& renderer, SceneLoader& loader, const Registry& registry,
                      const Comparison& comparison, SceneOptions options);
 
+    /// That is what the view shows, camera and light included.
+    void give(ViewPlace place, Scene scene) { given_.emplace_back(place, std::move(scene)); }
+    void give_photo(const std::string& file, std::shared_ptr<const LoadedPhoto> photo) {
+        photos_[file] = std::move(photo);
+    }
     Scene scene(ViewPlace place);
-    const LoadedPhoto& photo(const std::string& file);
+    std::shared_ptr<const LoadedPhoto> photo(const std::string& file);
+    /// Drawn there until the next picture of that size.
+    const RenderTarget& draw(const Scene& scene, glm::ivec2 size_px);
     Image radiance(const Scene& scene, glm::ivec2 size_px);
     Image display(const Scene& scene, glm::ivec2 size_px);
     Renderer& renderer() { return renderer_; }
 
 private:
-    RenderTarget& target(glm::ivec2 size_px);
     Reuse reuse() const;
 
     Renderer& renderer_;
@@ -37,7 +46,8 @@ private:
     const Comparison& comparison_;
     SceneOptions options_;
     std::map<std::string, Scene> presets_;
-    std::map<std::string, LoadedPhoto> photos_;
+    std::vector<std::pair<ViewPlace, Scene>> given_;
+    std::map<std::string, std::shared_ptr<const LoadedPhoto>> photos_;
     std::map<std::pair<int, int>, TargetHandle> targets_;
 };
 

@@ -103,6 +103,7 @@ bool Loop::calm() const {
 bool Loop::update_reconciler() {
     std::vector<WantedPicture> further = wanted_pictures(editor_);
     int height_px = 1;
+    if (editor_.sheet.report) height_px = kReportPx;
     for (const DrawnView& view : sheet_views_)
         if (view.target) height_px = std::max(height_px, Renderer::size_px(*view.target).y);
     for (std::size_t view = 0; view < further.size(); ++view)
@@ -254,7 +255,7 @@ void Loop::drive() {
 }
 
 double Loop::sleep_s() const {
-    if (more_uploads_ || editor_.sheet.report || wants_hints() || (drive_ && drive_->busy())) return 0.0;
+    if (more_uploads_ || report_is_drawn(editor_) || wants_hints() || (drive_ && drive_->busy())) return 0.0;
     if (needs_frame()) return 0.0;
     double wait = next_errand_s(editor_, window_.time_s());
     if (drive_) wait = std::min(wait, drive_->patient_for_s(window_.time_s()));

@@ -117,6 +117,16 @@ EnvironmentHandle make_white(Renderer& renderer) {
 
 }  // namespace
 
+std::shared_ptr<const LoadedPhoto> loaded_photo(Editor& editor, const std::string& file) {
+    const auto found = editor.photos.files.find(file);
+    if (found == editor.photos.files.end()) {
+        read_photo(editor, file);
+        return nullptr;
+    }
+    if (!found->second.error.empty()) throw std::runtime_error(found->second.error);
+    return found->second.loaded;
+}
+
 void update_photo(Editor& editor, const DrawnPhotoView& drawn) {
     if (drawn.view >= editor.photos.views.size()) return;
     PhotoShown& shown = editor.photos.views[drawn.view];

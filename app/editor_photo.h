@@ -55,6 +55,8 @@ struct DrawnPhotoView {
 };
 /// Starts what is missing for that view.
 void update_photo(Editor& editor, const DrawnPhotoView& drawn);
+/// Reads it where nobody has yet; null while it is read. Throws std::runtime_error where it cannot be had.
+std::shared_ptr<const LoadedPhoto> loaded_photo(Editor& editor, const std::string& file);
 /// One trial of what would bring the selected view closer to its photo, for when nothing else is going on.
 void step_hints(Editor& editor);
 /// step_hints() has something to do.

@@ -18,21 +18,34 @@ struct ReferenceError {
     double known = 0.0;  ///< relative 95 % half-width that 95 of 100 pixels of the reference keep
 };
 
+/// What that is found from.
+struct ReferencePictures {
+    Image found, expected;  ///< radiance
+    Image mask;             ///< 1 on the object
+    double known = 0.0;
+};
+/// Needs no GPU: a worker may do it.
+ReferenceError error_of(const ReferencePictures& pictures);
+
+/// Well below the errors that a report has to show.
+inline constexpr double kReferenceKnown = 0.02;
+
 class ReferenceSearch {
 public:
-    /// samples: points a pixel, rounded up to a multiple of 8. The renderer must outlive it.
+    /// It ends once 95 of 100 pixels are known to kReferenceKnown, or after samples: points a pixel, rounded
+    /// up to a multiple of 8. The renderer must outlive it.
     ReferenceSearch(Renderer& renderer, int samples);
     ~ReferenceSearch();
     ReferenceSearch(const ReferenceSearch&) = delete;
     ReferenceSearch& operator=(const ReferenceSearch&) = delete;
 
     void begin(const Scene& scene);
-    /// Draws one slice; false when none is left.
+    /// Draws for a moment; false when nothing is left to draw.
     bool step();
-    float done() const;  ///< share of the samples, 0…1
+    float done() const;  ///< 0…1, as far as can be told
     int samples() const { return samples_; }
     /// Precondition: begun, and step() has said false.
-    ReferenceError result();
+    ReferencePictures result();
 
 private:
     Renderer& renderer_;

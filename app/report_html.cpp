@@ -40,8 +40,8 @@ figure { margin: 0; }
 figure img { width: 100%; display: block; border-radius: 3px; }
 figcaption { font-size: .82em; min-width: 0; color: #5c5c62; margin-top: .2em; overflow-wrap: anywhere; }
 table { border-collapse: collapse; font-size: .9em; break-inside: avoid; }
-th, td { text-align: left; vertical-align: top; padding: .25em 1em .25em 0; border-bottom: 1px solid #ececef;
-  overflow-wrap: anywhere; }
+th, td { text-align: left; vertical-align: top; padding: .25em 1em .25em 0; border-bottom: 1px solid #ececef; }
+td.long { overflow-wrap: anywhere; }
 th { color: #5c5c62; font-weight: 600; white-space: nowrap; }
 thead { display: table-header-group; }
 tr { break-inside: avoid; }
@@ -83,11 +83,23 @@ void write_pictures(std::string& html, const ReportSection& section) {
     }
 }
 
+/// A word that a page may have no room for; shorter ones keep their column as wide as they are.
+bool has_long_word(std::string_view text) {
+    constexpr std::size_t kLong = 24;
+    while (text.size() > kLong) {
+        const std::size_t end = text.find(' ');
+        if (end == std::string_view::npos || end > kLong) return true;
+        text.remove_prefix(end + 1);
+    }
+    return false;
+}
+
 void write_table(std::string& html, const ReportTable& table) {
     const auto row = [&](std::string_view tag, const std::vector<std::string>& cells) {
         html += "<tr>";
         for (const std::string& cell : cells)
-            html += "<" + std::string(tag) + ">" + xml_escaped(cell) + "</" + std::string(tag) + ">";
+            html += "<" + std::string(tag) + (has_long_word(cell) ? " class=\"long\">" : ">") +
+                    xml_escaped(cell) + "</" + std::string(tag) + ">";
         html += "</tr>\n";
     };
     html += "<table>\n";

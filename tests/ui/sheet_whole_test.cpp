@@ -133,6 +133,42 @@ wait idle
     EXPECT_NE(page.find("Night"), std::string::npos);
 }
 
+TEST(SlowEditorSheet, writes_a_report_with_errors_against_the_reference_and_stays_in_reach) {
+    const Folder home;
+    write_picture(home / "shot.png", 118, 118, 100);
+    Comparison comparison;
+    comparison.rows = {{.preset = "gold"}, {.preset = "rubber"}};
+    comparison.columns = {{.environment = "furnace", .photo = Photo{.file = (home / "shot.png").string()}}};
+    save_comparison(home / "metals.json", comparison);
+    EXPECT_DRIVEN(drive(home, "resize 900 480\nwait idle\ndrop \"" + (home / "metals.json").string() + R"("
+wait until sheet_views=2
+wait idle
+click compare.report_reference
+click compare.report
+wait until item browser.file_name
+click browser.file_name
+key ctrl+a
+type errors.html
+click browser.confirm
+wait until item status.cancel
+click sheet.view.2
+key shift+right                 # the work goes on; the report shows what there was when it was asked for
+expect sheet_rotations!=0
+wait until log~Exported
+wait idle
+)"));
+    const std::string page = read_text(home / "errors.html");
+    const std::size_t at = page.find("Against the reference");
+    ASSERT_NE(at, std::string::npos);
+    const std::string section = page.substr(at, page.find("</section>", at) - at);
+    EXPECT_NE(section.find("<td>Gold</td>"), std::string::npos) << section;
+    EXPECT_NE(section.find("<td>Rubber</td>"), std::string::npos) << section;
+    EXPECT_NE(page.find("<td>0°</td>"), std::string::npos) << "turned after it was begun";
+    EXPECT_EQ(page.find("<td>5°</td>"), std::string::npos);
+    EXPECT_NE(page.find("patina render gold "), std::string::npos) << "shipped presets by their names";
+    EXPECT_NE(page.find("patina report metals.json -o errors.html"), std::string::npos);
+}
+
 TEST(EditorSheet, a_photo_dropped_on_a_view_is_held_against_it) {
     const Folder home;
     write_picture(home / "shot.png", 40, 90, 160);
