@@ -170,12 +170,16 @@ void ComparisonReport::add_photos(Report& report) const {
         const Photo& photo = *lighting_at(comparison_, shot.place).photo;
         const PhotoShot held = shoot_photo(photo, *shot.photo, shot.radiance);
         const std::string camera = describe(held.exif);
-        section.pictures.push_back({shot.material + ", " + shot.light,
-                                    {{held.title + (camera.empty() ? "" : " – " + camera), held.picture},
-                                     {"Render", shot.picture},
-                                     {"Difference: black is none, white ΔE " + number(double(kHeatWhite)) +
-                                          " and more, grey not compared",
-                                      held.heat}}});
+        section.pictures.push_back(
+            {shot.material + ", " + shot.light,
+             {{held.title + (camera.empty() ? "" : " – " + camera), held.picture},
+              {"Render", shot.picture},
+              {"ΔE: black is none, white " + number(double(kHeatWhite)) + " and more, grey not compared",
+               held.heat},
+              {formatted(
+                   "Luminance: the render is darker (blue) or brighter (red), up to %.0f %% of the photo",
+                   100.0 * double(kLuminanceWhite)),
+               held.luminance}}});
         std::vector<std::string> cells{shot.material, shot.light};
         std::ranges::copy(residual_cells(held.residual), std::back_inserter(cells));
         table.rows.push_back(std::move(cells));

@@ -68,7 +68,7 @@ void read_photo(Editor& editor, const std::string& file) {
 }
 
 struct Compared {
-    Image in_view, overlay, heat;
+    Image in_view, overlay, heat, luminance;
     Residual residual;
 };
 
@@ -89,11 +89,13 @@ void compare_photo(Editor& editor, const DrawnPhotoView& drawn, const Photo& pho
             const Image& in_view = made->in_view;
             made->overlay = overlay_of(in_view);
             made->heat = heat_picture(delta_e_picture(in_view, *render, photo.region), kHeatWhite);
+            made->luminance = luminance_picture(in_view, *render, photo.region, kLuminanceWhite);
             made->residual = residual_of(in_view, *render, photo.region);
             return [&editor, view, made] {
                 PhotoShown& result = editor.photos.views[view];
                 result.fitted = editor.renderer.upload_thumbnail(made->overlay);
                 result.heat = editor.renderer.upload_thumbnail(made->heat);
+                result.luminance = editor.renderer.upload_thumbnail(made->luminance);
                 result.linear = std::make_shared<const Image>(std::move(made->in_view));
                 result.residual = made->residual;
                 ++editor.changes;
@@ -202,6 +204,7 @@ void fill_photo(const Editor& editor, std::size_t view, ui::SheetCell& cell) {
     const PhotoShown& shown = editor.photos.views[view];
     if (shown.fitted) cell.photo = Renderer::texture_of(*shown.fitted);
     if (shown.heat) cell.heat = Renderer::texture_of(*shown.heat);
+    if (shown.luminance) cell.luminance = Renderer::texture_of(*shown.luminance);
     if (shown.fitted && shown.residual.pixels > 0) cell.residual = short_text(shown.residual);
     cell.hints = shown.hints;
 }

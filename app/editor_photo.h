@@ -31,7 +31,7 @@ struct PhotoShown {
     std::optional<Photo> photo;
     glm::ivec2 size_px{0};
     std::uint64_t drawn = 0;  ///< how often the view had been drawn
-    MapHandle fitted, heat;
+    MapHandle fitted, heat, luminance;
     std::shared_ptr<const Image> linear;  ///< 4 channels, in the view's frame
     Residual residual;
     std::optional<HintSearch> search;               ///< under way

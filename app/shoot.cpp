@@ -59,6 +59,7 @@ PhotoShot shoot_photo(const Photo& photo, const LoadedPhoto& loaded, const Image
     shot.picture = display_of_linear(shot.linear);
     shot.residual = residual_of(shot.linear, render, photo.region);
     shot.heat = heat_picture(delta_e_picture(shot.linear, render, photo.region), kHeatWhite);
+    shot.luminance = luminance_picture(shot.linear, render, photo.region, kLuminanceWhite);
     return shot;
 }
 

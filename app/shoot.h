@@ -29,12 +29,12 @@ struct PhotoShot {
     CameraExif exif;
     Image
         picture;  ///< in the view's frame, balanced: 3 channels of U8, sRGB; mid-grey where it does not reach
-    Image linear;  ///< the same as 4 channels of F32
-    Image heat;    ///< ΔE2000 as a picture, white at kHeatWhite
+    Image linear;     ///< the same as 4 channels of F32
+    Image heat;       ///< ΔE2000 as a picture, white at kHeatWhite
+    Image luminance;  ///< luminance_picture, up to kLuminanceWhite
     Residual residual;
     std::vector<std::string> hints;  ///< one sentence each, from computed trials
 };
-inline constexpr float kHeatWhite = 20.0f;
 
 /// The photo held against a view's linear radiance.
 PhotoShot shoot_photo(const Photo& photo, const LoadedPhoto& loaded, const Image& render);

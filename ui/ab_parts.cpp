@@ -2,6 +2,7 @@
 
 #include "renderer/core/format.h"
 #include "renderer/core/metrics.h"
+#include "ui/viewport_parts.h"
 #include "ui/widgets.h"
 
 #include <imgui.h>
@@ -13,13 +14,12 @@
 namespace patina::ui {
 namespace {
 
-void draw_side_title(const std::string& text, float x, float y, bool to_the_left) {
+/// Beside the line, as far as the rectangle leaves room.
+void draw_side_title(const std::string& text, float x, const Rect& rect, bool to_the_left) {
     if (text.empty()) return;
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    const float x0 = to_the_left ? x - size.x - px(20) : x + px(8);
-    ImDrawList* draw = ImGui::GetWindowDrawList();
-    draw->AddRectFilled({x0, y}, {x0 + size.x + px(12), y + size.y + px(6)}, color::kShade, px(4));
-    draw->AddText({x0 + px(6), y + px(3)}, color::kText, text.c_str());
+    const float room = (to_the_left ? x - rect.x0 : rect.x1 - x) - px(16);
+    const float width = std::min(ImGui::CalcTextSize(text.c_str()).x + px(16), room);
+    draw_chip({to_the_left ? x - width - px(8) : x + px(8), rect.y0 + px(10)}, text, room);
 }
 
 float line_x(const Rect& rect, float at) { return std::round(rect.x0 + at * rect.width()); }
@@ -39,8 +39,8 @@ void draw_split_line(PanelContext& context, const SplitLine& line, const Rect& r
     draw->AddRectFilled({x - px(1), rect.y0}, {x + px(1), rect.y1}, color::kText);
     draw->AddCircleFilled({x, middle}, px(7), color::kAccent);
     record_rect(context, line.name, {x - px(6), middle - px(12), x + px(6), middle + px(12)});
-    draw_side_title(line.left, x, rect.y0 + px(10), true);
-    draw_side_title(line.right, x, rect.y0 + px(10), false);
+    draw_side_title(line.left, x, rect, true);
+    draw_side_title(line.right, x, rect, false);
 }
 
 bool drag_split_line(const Rect& rect, bool& held, float& at) {

@@ -64,10 +64,16 @@ void draw_ab(PanelContext& context, int view, const Rect& rect) {
                          .right = title_of(context, ab.against)},
                         rect);
     } else if (ab.how == AbHow::Blink) {
-        if (blinks_to_second(context)) draw_part(second, rect, {0.0f, 1.0f});
+        const bool shows_second = blinks_to_second(context);
+        if (shows_second) draw_part(second, rect, {0.0f, 1.0f});
+        draw_chip({rect.x0 + px(8), rect.y0 + px(8)}, title_of(context, shows_second ? ab.against : view),
+                  rect.width() - px(16));
     } else if (const auto kind = map_of(ab.how)) {
         if (context.ab_map.texture) draw_part(context.ab_map, rect, {0.0f, 1.0f});
         draw_ramp_legend(context, legend_of(*kind), rect.x0 + px(10), rect.y1 - px(10));
+        draw_chip({rect.x0 + px(8), rect.y0 + px(8)},
+                  title_of(context, view) + "   against   " + title_of(context, ab.against),
+                  rect.width() - px(16));
     }
     ImGui::PopFont();
 }

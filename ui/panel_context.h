@@ -202,6 +202,9 @@ struct FileBrowser {
 
 // ---- the interface's own state, nothing of the document ----
 
+/// What is seen in a photo's place.
+enum class PhotoLayer { Photo, DeltaE, Luminance };
+
 /// What the mouse does on the selected view's photo.
 enum class PhotoTool { None, Fit, GreyCard, WhitePaper, Region };
 
@@ -314,7 +317,7 @@ struct UiState {
     int sheet_enlarged = -1;      ///< the view that fills the sheet; < 0: all are seen
     bool sheet_turn_all = false;  ///< turning the light turns that of every view
     PhotoTool photo_tool = PhotoTool::None;
-    bool photo_heat = false;        ///< the difference instead of the photo
+    PhotoLayer photo_layer = PhotoLayer::Photo;
     bool photo_held = false;        ///< a point or rectangle is being dragged in this frame
     bool report_reference = false;  ///< the report holds every view against the reference, too
     float photo_wipe = 0.0f;        ///< where the photo begins, from the view's left, 0…1
@@ -345,11 +348,11 @@ struct SheetCell {
     std::string error;          ///< one sentence: what of it could not be had
     TextureId photo =
         0;  ///< in the view's frame, its coverage as alpha; first row at the top, as the next two
-    TextureId photo_raw = 0;  ///< the whole photo
-    TextureId heat = 0;       ///< the difference
-    glm::ivec2 photo_px{0};   ///< size of the photo; 0: not read yet
-    std::string photo_about;  ///< camera and exposure
-    std::string residual;     ///< "ΔE 3.2 · light +4 %"
+    TextureId photo_raw = 0;            ///< the whole photo
+    TextureId heat = 0, luminance = 0;  ///< the differences
+    glm::ivec2 photo_px{0};             ///< size of the photo; 0: not read yet
+    std::string photo_about;            ///< camera and exposure
+    std::string residual;               ///< "ΔE 3.2 · light +4 %"
     /// What would bring the render closer to the photo, one sentence each; nullopt: not known yet.
     std::optional<std::vector<std::string>> hints;
 };

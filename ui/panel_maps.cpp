@@ -286,9 +286,11 @@ void draw_make(PanelContext& context) {
     heading("Make");
     for (const std::string& note : context.maps_status.notes)
         text_wrapped(note, color::kWarning, Face::Small);
-    text_field(context, "maps.name", maps.name,
-               "What the files are called; a number is added where they exist already.",
-               {.hint = "Name of the files"});
+    text_row(context,
+             {.name = "maps.name",
+              .label = "Name of the files",
+              .tooltip = "What they are called; a number is added where they exist already."},
+             maps.name);
     if (button(
             context, "maps.make", "Make the maps and use them",
             "Writes the maps beside the preset and puts them into their slots. Ctrl+Z takes them out again; "

@@ -371,13 +371,14 @@ void draw_plain_row(PanelContext& context, const MaterialParam& param) {
 
 void draw_header(PanelContext& context) {
     const bool renamed = context.material.name != context.saved_material.name;
-    row_label(context, {.name = "material.name",
-                        .text = "Name",
-                        .tooltip = "The material's name, as the library shows it.",
-                        .changed = renamed,
-                        .width = px(56)});
-    text_field(context, "material.name", context.material.name,
-               "The material's name, as the library shows it.", {.hint = "Untitled"});
+    text_row(context,
+             {.name = "material.name",
+              .label = "Name",
+              .tooltip = "The material's name, as the library shows it.",
+              .hint = "Untitled",
+              .changed = renamed,
+              .width = px(56)},
+             context.material.name);
     if (!context.material.source.empty()) text_wrapped(context.material.source, color::kMuted, Face::Small);
     if (button(context, "material.import", "Import maps of a folder…",
                "Choose the folder of a scanned material: each file is matched to its slot by its name. "

@@ -14,6 +14,8 @@
 namespace patina::ui {
 namespace {
 
+constexpr float kLabel = 70.0f;  ///< of the texts, at scale 1
+
 void draw_start(PanelContext& context) {
     text_wrapped(
         "Several views at once, with one camera: presets below each other, lightings beside each other, "
@@ -33,11 +35,15 @@ void draw_start(PanelContext& context) {
 void draw_texts(PanelContext& context) {
     Comparison& sheet = *context.sheet;
     heading("Sheet");
-    text_field(context, "compare.title", sheet.title, "What stands above the sheet and the report.",
-               {.hint = "Title"});
-    text_field(context, "compare.author", sheet.author, "Who made it; stands in the report.",
-               {.hint = "Author"});
-    text_field(context, "compare.remarks", sheet.remarks, "A few words for the report.", {.hint = "Remarks"});
+    const auto field = [&](std::string_view name, std::string_view label, std::string_view tooltip,
+                           const char* hint, std::string& text) {
+        text_row(context,
+                 {.name = name, .label = label, .tooltip = tooltip, .hint = hint, .width = px(kLabel)}, text);
+    };
+    field("compare.title", "Title", "What stands above the sheet and the report.", "Materials side by side",
+          sheet.title);
+    field("compare.author", "Author", "Who made it; stands in the report.", "", sheet.author);
+    field("compare.remarks", "Remarks", "A few words for the report.", "", sheet.remarks);
 }
 
 void draw_selected(PanelContext& context) {
@@ -63,8 +69,13 @@ void draw_selected(PanelContext& context) {
     if (checkbox(context, "compare.own_camera", "A camera of its own",
                  "The view does not follow when the others are turned.", own))
         light.camera = own ? std::optional(context.camera) : std::nullopt;
-    text_field(context, "compare.light_title", lighting_at(*context.sheet, places[selected]).title,
-               "What the light is called in the sheet and the report.", {.hint = "Name of the light"});
+    text_row(context,
+             {.name = "compare.light_title",
+              .label = "Light",
+              .tooltip = "What the light is called in the sheet and the report; empty: as its environment.",
+              .hint = light.title.empty() ? cell.light.c_str() : "",
+              .width = px(kLabel)},
+             light.title);
 }
 
 void draw_files(PanelContext& context) {

@@ -1,6 +1,9 @@
 #include "ui/photo_overlay.h"
 
+#include "renderer/core/format.h"
+#include "renderer/core/metrics.h"
 #include "renderer/core/photo.h"
+#include "ui/ab_parts.h"
 #include "ui/icons.h"
 #include "ui/values.h"
 #include "ui/widgets.h"
@@ -170,6 +173,32 @@ void handle_photo_mouse(PanelContext& context, int view, const Rect& rect) {
     }
 }
 
+namespace {
+
+TextureId difference_of(const SheetCell& cell, PhotoLayer layer) {
+    return layer == PhotoLayer::DeltaE ? cell.heat : layer == PhotoLayer::Luminance ? cell.luminance : 0;
+}
+
+/// Where the view has room for it.
+void draw_layer_legend(PanelContext& context, const Rect& rect) {
+    if (rect.width() < px(320)) return;
+    const bool heat = context.ui.photo_layer == PhotoLayer::DeltaE;
+    const auto diverging_color = [](float t) {
+        glm::vec3 c;
+        diverging(2.0 * double(t) - 1.0, &c.x);
+        return c;
+    };
+    const RampLegend legend =
+        heat ? RampLegend{"sheet.legend.delta_e", "ΔE 0", formatted("≥ %.0f", double(kHeatWhite)), heat_color}
+             : RampLegend{"sheet.legend.luminance", "render darker", "brighter than the photo",
+                          diverging_color};
+    ImGui::PushFont(font_of(Face::Small));
+    draw_ramp_legend(context, legend, rect.x0 + px(10), rect.y1 - px(10));
+    ImGui::PopFont();
+}
+
+}  // namespace
+
 void draw_photo(PanelContext& context, int view, const Rect& rect) {
     const Photo* photo = photo_of(context, view);
     if (!photo) return;
@@ -185,13 +214,14 @@ void draw_photo(PanelContext& context, int view, const Rect& rect) {
     }
     const float split = rect.x0 + ui.photo_wipe * rect.width();
     draw->PushClipRect({split, rect.y0}, {rect.x1, rect.y1}, true);
-    if (ui.photo_heat && cell.heat)
-        add_image(cell.heat, rect, 1.0f);
+    if (const TextureId difference = difference_of(cell, ui.photo_layer))
+        add_image(difference, rect, 1.0f);
     else if (cell.photo)
         add_image(cell.photo, rect, photo->opacity);
     draw->PopClipRect();
     if (ui.photo_wipe > 0.0f && ui.photo_wipe < 1.0f)
         draw->AddLine({split, rect.y0}, {split, rect.y1}, color::kAccent, px(1.5f));
+    if (difference_of(cell, ui.photo_layer)) draw_layer_legend(context, rect);
     if (photo->region) {
         const Rect square = square_of(rect);
         draw->AddRect(point_in(square, {photo->region->x0, photo->region->y0}),
@@ -277,9 +307,14 @@ void draw_photo_rows(PanelContext& context, int view) {
     draw_photo_numbers(context, *photo);
     draw_photo_tools(context, *photo, full);
     draw_undoing(context, *photo, full);
-    checkbox(context, "compare.photo.heat", "Show the difference",
-             "CIEDE2000 in colours: black is equal, white is 20 and more, grey is not compared.",
-             context.ui.photo_heat);
+    static constexpr std::array kLayers{
+        Option{"Photo", "The photo, as opaque as set above."},
+        Option{"ΔE", "CIEDE2000 in colours: black is equal, white is 20 and more, grey is not compared."},
+        Option{"Luminance",
+               "Where the render is darker (blue) or brighter (red) than the photo, up to the "
+               "photo's mean luminance."}};
+    int layer = int(context.ui.photo_layer);
+    if (segmented(context, "compare.photo.layer", kLayers, layer)) context.ui.photo_layer = PhotoLayer(layer);
     if (button(context, "compare.photo.remove", "Remove the photo", "The file stays.", {.width = full})) {
         context.ui.photo_tool = PhotoTool::None;
         context.requests.push_back(request::ChangeSheet{request::SheetChange::RemovePhoto, view});

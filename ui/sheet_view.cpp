@@ -24,10 +24,16 @@ struct Grid {
     int columns = 1, rows = 1;
 };
 
-/// As the comparison's own grid where everything in it is seen, else what fills the region best.
+/// As the comparison's own grid where everything in it is seen, else what fills the region best: so does a
+/// single row or column of views that would become slits.
 Grid grid_of(const Comparison& sheet, std::size_t views, float aspect) {
+    constexpr float kSlit = 2.5f;
+    Grid own{std::max(1, int(sheet.columns.size())), int(sheet.rows.size())};
     const bool whole = sheet.views.empty() && views == sheet.rows.size() * sheet.columns.size();
-    const int columns = whole ? std::max(1, int(sheet.columns.size())) : grid_columns(views, aspect, 1.0f);
+    const float cell = aspect * float(own.rows) / float(own.columns);
+    const bool slits = std::min(own.rows, own.columns) == 1 && std::max(cell, 1.0f / cell) > kSlit;
+    if (whole && !slits) return own;
+    const int columns = grid_columns(views, aspect, 1.0f);
     return {columns, (int(views) + columns - 1) / columns};
 }
 
@@ -57,34 +63,39 @@ void draw_cell_picture(const SheetCell& cell, const Rect& rect, const PanelConte
     ImGui::PopFont();
 }
 
-/// In one line, or below each other where the view is narrow.
-void draw_title(const SheetCell& cell, const Rect& rect) {
+/// In one line, or below each other where the view is narrow. False: something of it is not seen.
+bool draw_title(const SheetCell& cell, const Rect& rect) {
     const std::string all =
         cell.preset + "  ·  " + cell.light + (cell.residual.empty() ? "" : "  ·  " + cell.residual);
     const ImVec2 at{rect.x0 + px(8), rect.y0 + px(8)};
-    if (ImGui::CalcTextSize(all.c_str()).x + px(32) <= rect.width()) return draw_chip(at, all);
-    const float line = ImGui::GetFontSize() + px(10);
+    const float room = rect.width() - px(16), line = ImGui::GetFontSize() + px(10);
+    if (ImGui::CalcTextSize(all.c_str()).x + px(16) <= room || rect.height() < 3.0f * line)
+        return draw_chip(at, all, room);
     float y = at.y;
+    bool seen = true;
     for (const std::string* part : {&cell.preset, &cell.light, &cell.residual}) {
         if (part->empty()) continue;
-        draw_chip({at.x, y}, *part);
+        seen &= draw_chip({at.x, y}, *part, room);
         y += line;
     }
+    return seen;
 }
 
 void draw_cell_labels(PanelContext& context, const SheetCell& cell, const Rect& rect, bool selected) {
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->PushClipRect({rect.x0, rect.y0}, {rect.x1, rect.y1}, true);
     ImGui::PushFont(font_of(Face::Small));
-    draw_title(cell, rect);
+    const bool seen = draw_title(cell, rect);
     if (selected && context.ui.rotating_light) {
         const int degrees = static_cast<int>(std::lround(context.view.env_rotation_deg));
         draw_chip(
             {rect.x0 + px(8), rect.y1 - ImGui::GetFontSize() - px(18)},
-            "Light " + std::to_string(degrees) + "°" + (context.result.turn_all_lights ? ", all views" : ""));
+            "Light " + std::to_string(degrees) + "°" + (context.result.turn_all_lights ? ", all views" : ""),
+            rect.width() - px(16));
     }
     ImGui::PopFont();
     draw->PopClipRect();
+    if (!seen && !context.ui.viewport_drag) explain(context, cell.preset + "  ·  " + cell.light);
     if (selected)
         draw->AddRect({rect.x0 + 1.0f, rect.y0 + 1.0f}, {rect.x1 - 1.0f, rect.y1 - 1.0f}, color::kAccent,
                       0.0f, 0, px(2));
@@ -126,8 +137,7 @@ void draw_cell(PanelContext& context, int view, const Rect& rect) {
         draw_ab(context, view, rect);
     else
         draw_photo(context, view, rect);
-    if (!ab || ui.ab.how != AbHow::Split)
-        draw_cell_labels(context, cell, rect, selected && context.sheet_cells.size() > 1);
+    if (!ab) draw_cell_labels(context, cell, rect, selected && context.sheet_cells.size() > 1);
     if (enlarged) draw_probe(context, rect);
     ImGui::PopID();
 }

@@ -224,6 +224,18 @@ bool number_value(PanelContext& context, const NumberRow& row, float& value, flo
     return changed;
 }
 
+bool text_row(PanelContext& context, const TextRow& row, std::string& text) {
+    const LabelAction action = row_label(context, {.name = row.name,
+                                                   .text = row.label,
+                                                   .tooltip = row.tooltip,
+                                                   .changed = row.changed,
+                                                   .at_default = text.empty(),
+                                                   .width = row.width});
+    const bool emptied = action == LabelAction::Reset && !text.empty();
+    if (emptied) text.clear();
+    return text_field(context, row.name, text, row.tooltip, {.hint = row.hint}) || emptied;
+}
+
 bool number_row(PanelContext& context, const NumberRow& row, float& value) {
     const LabelAction action = row_label(context, {.name = row.name,
                                                    .text = row.label,

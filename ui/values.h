@@ -8,6 +8,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace patina::ui {
@@ -43,6 +44,17 @@ struct NumberRow {
 };
 /// Returns whether value was changed in this frame. value is only written when edited.
 bool number_row(PanelContext& context, const NumberRow& row, float& value);
+
+struct TextRow {
+    std::string_view name;  ///< recorded: "<name>.label", and the field by the name itself
+    std::string_view label;
+    std::string_view tooltip;
+    const char* hint = "";  ///< what stands there while it is empty
+    bool changed = false;
+    float width = 0.0f;  ///< of the label, display units; 0: label_width()
+};
+/// Returns whether text was changed in this frame; resetting empties it.
+bool text_row(PanelContext& context, const TextRow& row, std::string& text);
 
 /// The bar alone, width display units wide; and bar and number on what is left of the line, without a label.
 bool number_bar(PanelContext& context, const NumberRow& row, float& value, float width);

@@ -9,6 +9,7 @@
 #include "ui/widgets.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <bit>
@@ -61,13 +62,19 @@ void draw_picture(PanelContext& context, const Rect& rect) {
 
 }  // namespace
 
-void draw_chip(const ImVec2& at, const std::string& text) {
+bool draw_chip(const ImVec2& at, const std::string& text, float max_width) {
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     const ImVec2 pad{px(8), px(4)};
+    const float room = max_width > 0.0f ? max_width - 2.0f * pad.x : size.x;
+    if (room < px(12)) return false;
+    const float width = std::min(size.x, room);
     ImDrawList* draw = ImGui::GetWindowDrawList();
-    draw->AddRectFilled(at, {at.x + size.x + 2.0f * pad.x, at.y + size.y + 2.0f * pad.y}, color::kShade,
+    draw->AddRectFilled(at, {at.x + width + 2.0f * pad.x, at.y + size.y + 2.0f * pad.y}, color::kShade,
                         px(5));
-    draw->AddText({at.x + pad.x, at.y + pad.y}, color::kText, text.c_str());
+    const ImVec2 from{at.x + pad.x, at.y + pad.y};
+    ImGui::RenderTextEllipsis(draw, from, {from.x + room, from.y + size.y}, from.x + room, from.x + room,
+                              text.data(), text.data() + text.size(), &size);
+    return size.x <= room;
 }
 
 namespace {

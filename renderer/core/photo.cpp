@@ -3,6 +3,7 @@
 #include "renderer/core/color_difference.h"
 #include "renderer/core/format.h"
 #include "renderer/core/homography.h"
+#include "renderer/core/metrics.h"
 
 #include <glm/common.hpp>
 #include <glm/mat4x4.hpp>
@@ -201,17 +202,38 @@ Image delta_e_picture(const Image& photo, const Image& render, const std::option
     return picture;
 }
 
-Image heat_picture(const Image& values, float white) {
+Image luminance_picture(const Image& photo, const Image& render, const std::optional<Region>& region,
+                        float white) {
+    Image picture = make_image(photo.width, photo.height, 3, PixelType::U8);
+    std::ranges::fill(picture.bytes, std::byte(128));
+    double light = 0.0, pixels = 0.0;
+    for_compared(photo, render, region, [&](int, int, glm::vec3 seen, glm::vec3) {
+        light += double(luminance(seen));
+        ++pixels;
+    });
+    const double scale = pixels / std::max(light, 1e-9 * pixels) / double(white);
+    for_compared(photo, render, region, [&](int x, int y, glm::vec3 seen, glm::vec3 made) {
+        glm::vec3 color;
+        diverging(double(luminance(made) - luminance(seen)) * scale, &color.x);
+        for (int c = 0; c < 3; ++c) set_texel(picture, x, y, c, color[c]);
+    });
+    return picture;
+}
+
+glm::vec3 heat_color(float t) {
     static constexpr std::array<glm::vec3, 5> stops{
         glm::vec3{0, 0, 0}, {0.10f, 0.10f, 0.55f}, {0.80f, 0.15f, 0.25f}, {1.0f, 0.75f, 0.15f}, {1, 1, 1}};
+    const float at = std::clamp(t, 0.0f, 1.0f) * float(stops.size() - 1);
+    const auto i = std::min(std::size_t(at), stops.size() - 2);
+    return glm::mix(stops[i], stops[i + 1], at - float(i));
+}
+
+Image heat_picture(const Image& values, float white) {
     Image picture = make_image(values.width, values.height, 3, PixelType::U8);
     for (int y = 0; y < values.height; ++y)
         for (int x = 0; x < values.width; ++x) {
             const float value = texel(values, x, y, 0);
-            const float at = std::clamp(value / white, 0.0f, 1.0f) * float(stops.size() - 1);
-            const auto i = std::min(std::size_t(at), stops.size() - 2);
-            const glm::vec3 color =
-                value < 0.0f ? glm::vec3(0.5f) : glm::mix(stops[i], stops[i + 1], at - float(i));
+            const glm::vec3 color = value < 0.0f ? glm::vec3(0.5f) : heat_color(value / white);
             for (int c = 0; c < 3; ++c) set_texel(picture, x, y, c, color[c]);
         }
     return picture;

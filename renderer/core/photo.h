@@ -69,6 +69,17 @@ struct Residual {
 Residual residual_of(const Image& photo_in_view, const Image& render, const std::optional<Region>& region);
 /// ΔE2000 a pixel, negative where nothing is compared: 1 channel of F32.
 Image delta_e_picture(const Image& photo_in_view, const Image& render, const std::optional<Region>& region);
+/// Where the pictures of differences end.
+inline constexpr float kHeatWhite = 20.0f;      ///< ΔE2000
+inline constexpr float kLuminanceWhite = 1.0f;  ///< of the photo's mean luminance
+
+/// Luminance of render − photo over the photo's mean luminance, as Residual has it of all pixels: 8-bit sRGB,
+/// blue where the render is darker, red where it is brighter, at the ends from `white` on; mid-grey where
+/// nothing is compared.
+Image luminance_picture(const Image& photo_in_view, const Image& render, const std::optional<Region>& region,
+                        float white);
+/// Black through blue, red and yellow to white for 0…1; sRGB.
+glm::vec3 heat_color(float t);
 /// 8-bit sRGB picture of it: black at 0 through blue, red and yellow to white at `white` and above; mid-grey
 /// where it is negative.
 Image heat_picture(const Image& values, float white);

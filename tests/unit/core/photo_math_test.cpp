@@ -227,6 +227,12 @@ TEST(PhotoResidual, its_picture_holds_the_same_differences) {
     const Image heat = heat_picture(picture, 10.0f);
     EXPECT_NEAR(texel(heat, 3, 6, 0), 0.5f, 0.01f) << "grey is not compared";
     EXPECT_GT(texel(heat, 3, 2, 2), 0.1f);
+    const Image light =
+        luminance_picture(covered(photo), render, Region{0.0f, 0.0f, 1.0f, 0.5f}, kLuminanceWhite);
+    EXPECT_NEAR(texel(light, 3, 6, 0), 0.5f, 0.01f);
+    EXPECT_GT(texel(light, 3, 2, 0), texel(light, 3, 2, 2)) << "brighter is red";
+    const Image darker = luminance_picture(covered(render), photo, std::nullopt, kLuminanceWhite);
+    EXPECT_LT(texel(darker, 3, 2, 0), texel(darker, 3, 2, 2)) << "darker is blue";
 }
 
 TEST(PhotoEstimate, finds_the_bottom_of_a_parabola_between_the_trials) {
