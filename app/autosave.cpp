@@ -1,5 +1,6 @@
 #include "app/autosave.h"
 
+#include "app/comparison_file.h"
 #include "materials/json_text.h"
 #include "materials/material_io.h"
 #include "materials/text_io.h"
@@ -48,13 +49,17 @@ View view_from_json(const Json& json) {
 
 std::string to_json(const Recovery& recovery) {
     const Document& document = recovery.document;
-    const Json json{{"patina_recovery", kRecoveryVersion},
-                    {"file", path_to_utf8(recovery.file)},
-                    {"unix_time_s", recovery.unix_time_s},
-                    {"mesh", document.mesh},
-                    {"environment", document.environment},
-                    {"view", view_to_json(document.view)},
-                    {"material", Json::parse(to_json(document.material))}};
+    Json json{{"patina_recovery", kRecoveryVersion},
+              {"file", path_to_utf8(recovery.file)},
+              {"unix_time_s", recovery.unix_time_s},
+              {"mesh", document.mesh},
+              {"environment", document.environment},
+              {"view", view_to_json(document.view)},
+              {"material", Json::parse(to_json(document.material))}};
+    if (document.sheet) {
+        json["sheet_file"] = path_to_utf8(recovery.sheet_file);
+        json["sheet"] = Json::parse(to_json(*document.sheet));
+    }
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -70,6 +75,9 @@ std::optional<Recovery> parse_recovery(std::string_view text) {
         recovery.document.environment = json.value("environment", recovery.document.environment);
         recovery.document.view = view_from_json(json.value("view", Json::object()));
         recovery.document.material = parse_material(json.at("material").dump(), "recovery file").material;
+        recovery.sheet_file = utf8_to_path(json.value("sheet_file", std::string{}));
+        if (json.contains("sheet"))
+            recovery.document.sheet = parse_comparison(json.at("sheet").dump(), "recovery file").comparison;
         return recovery;
     } catch (const std::exception&) {
         return std::nullopt;

@@ -14,10 +14,11 @@
 
 namespace patina {
 
-/// What is kept: the document, the preset it belongs to, and when.
+/// What is kept: the document, the files it belongs to, and when.
 struct Recovery {
-    Document document;
-    std::filesystem::path file;  ///< empty: never saved
+    Document document;                 ///< its sheet only where that is not saved
+    std::filesystem::path file;        ///< of the preset; empty: never saved
+    std::filesystem::path sheet_file;  ///< likewise
     std::int64_t unix_time_s = 0;
 };
 std::string to_json(const Recovery& recovery);

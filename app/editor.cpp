@@ -311,15 +311,13 @@ int Loop::run() {
     } catch (
         ...) {  // the driver gave up, memory is used up: what the artist did is offered at the next start
         jobs_.end();
-        if (is_dirty(editor_.document, editor_.file)) keep_now(editor_);
-        keep_sheet(editor_);
+        if (has_unsaved_work(editor_)) keep_now(editor_);
         throw;
     }
     jobs_.end();
     editor_.recovery.remove();
     try {
         remember_window();
-        keep_sheet(editor_);
         write_stats(args_.stats, renderer_.work(), first_lit_frame_);
     } catch (const std::exception& error) {  // closing must not fail for what is only kept
         log_line(editor_, ui::Severity::Warning, error.what());

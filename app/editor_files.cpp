@@ -23,7 +23,7 @@ void start_document(Editor& editor, DocumentFile file) {
     ++editor.changes;
 }
 
-void carry_on(Editor& editor) {
+void carry_out_waiting(Editor& editor) {
     const std::optional<ui::Request> request = std::exchange(editor.waiting, std::nullopt);
     editor.unsaved.reset();
     ++editor.changes;
@@ -31,6 +31,8 @@ void carry_on(Editor& editor) {
     if (std::holds_alternative<ui::request::New>(*request)) {
         start_document(editor, {});
         say_status(editor, "A new material.");
+    } else if (const auto* sheet = std::get_if<ui::request::OpenSheet>(&*request)) {
+        open_sheet(editor, sheet->file);
     } else if (const auto* open = std::get_if<ui::request::Open>(&*request)) {
         open_file(editor, utf8_to_path(open->file));
     } else if (std::holds_alternative<ui::request::Quit>(*request)) {
@@ -38,11 +40,31 @@ void carry_on(Editor& editor) {
     }
 }
 
+/// What the request would lose, from `first` on, that nobody has answered for yet.
+std::optional<ui::Unsaved> next_loss(const Editor& editor, ui::Unsaved first) {
+    const bool comparison = std::holds_alternative<ui::request::OpenSheet>(*editor.waiting);
+    const bool quit = std::holds_alternative<ui::request::Quit>(*editor.waiting);
+    if (first == ui::Unsaved::Material && !comparison && is_dirty(editor.document, editor.file))
+        return ui::Unsaved::Material;
+    if ((comparison || quit) && sheet_unsaved(editor)) return ui::Unsaved::Comparison;
+    return std::nullopt;
+}
+
+/// Asks about what would be lost, or does what waits.
+void go_on(Editor& editor, ui::Unsaved first, const std::string& action) {
+    const std::optional<ui::Unsaved> loss = next_loss(editor, first);
+    if (!loss) return carry_out_waiting(editor);
+    const bool material = *loss == ui::Unsaved::Material;
+    editor.unsaved = {.title = material ? document_title(editor.document, editor.file) : sheet_name(editor),
+                      .action = action,
+                      .what = *loss};
+    ++editor.changes;
+}
+
 void ask(Editor& editor, ui::Request request, const std::string& action) {
     editor.waiting = std::move(request);
-    if (!is_dirty(editor.document, editor.file)) return carry_on(editor);
-    editor.unsaved = {.title = document_title(editor.document, editor.file), .action = action};
-    ++editor.changes;
+    editor.waiting_action = action;
+    go_on(editor, ui::Unsaved::Material, action);
 }
 
 /// Presets that ship are the program's, not the artist's: saving one asks for another place.
@@ -65,26 +87,37 @@ DocumentFile read_document(Editor& editor, const fs::path& file) {
 
 void ask_new(Editor& editor) { ask(editor, ui::request::New{}, "start a new material"); }
 void ask_open(Editor& editor, const std::string& file) {
-    if (is_comparison_file(utf8_to_path(file))) return open_sheet(editor, file);
+    if (is_comparison_file(utf8_to_path(file))) return ask_open_sheet(editor, file);
     if (set_sheet_preset(editor, file)) return;
     ask(editor, ui::request::Open{file}, "open " + path_to_utf8(utf8_to_path(file).stem()));
 }
+void ask_open_sheet(Editor& editor, const std::string& file) {
+    ask(editor, ui::request::OpenSheet{file}, "open " + path_to_utf8(utf8_to_path(file).stem()));
+}
 void ask_quit(Editor& editor) { ask(editor, ui::request::Quit{}, "close Patina"); }
 
-void answer_unsaved(Editor& editor, ui::request::Choice choice) {
+/// What was asked about last is saved, or was given up.
+void carry_on(Editor& editor) {
+    const bool material = !editor.unsaved || editor.unsaved->what == ui::Unsaved::Material;
     editor.unsaved.reset();
+    if (material)
+        go_on(editor, ui::Unsaved::Comparison, editor.waiting_action);
+    else
+        carry_out_waiting(editor);
+}
+
+void answer_unsaved(Editor& editor, ui::request::Choice choice) {
+    if (!editor.unsaved) return;
+    const ui::UnsavedQuestion asked = *editor.unsaved;
     ++editor.changes;
-    switch (choice) {
-        case ui::request::Choice::Cancel:
-            editor.waiting.reset();
-            return;
-        case ui::request::Choice::Discard:
-            return carry_on(editor);
-        case ui::request::Choice::Save:
-            save(editor);  // carries on once it has succeeded, perhaps after a name was chosen
-            if (!editor.browser.open && is_dirty(editor.document, editor.file)) editor.waiting.reset();
-            return;
-    }
+    if (choice == ui::request::Choice::Discard) return carry_on(editor);
+    editor.unsaved.reset();
+    if (choice == ui::request::Choice::Cancel) return editor.waiting.reset();
+    // Carries on once it has succeeded, perhaps after a name was chosen.
+    const bool material = asked.what == ui::Unsaved::Material;
+    material ? save(editor) : save_sheet(editor);
+    const bool still = material ? is_dirty(editor.document, editor.file) : sheet_unsaved(editor);
+    if (!editor.browser.open && still && !editor.unsaved) editor.waiting.reset();
 }
 
 void drop_stale_wait(Editor& editor) {

@@ -50,11 +50,18 @@ void bring_recovery_file_up_to_date(Editor& editor) {
         });
 }
 
+Recovery recovery_of(const Editor& editor) {
+    Recovery recovery{editor.document, editor.file.path, {}, std::time(nullptr)};
+    recovery.document.sheet = unsaved_sheet(editor);
+    if (recovery.document.sheet) recovery.sheet_file = sheet_file(editor).path;
+    return recovery;
+}
+
 }  // namespace
 
 bool keep_now(Editor& editor) {
     try {
-        editor.to_keep = to_json(Recovery{editor.document, editor.file.path, std::time(nullptr)});
+        editor.to_keep = to_json(recovery_of(editor));
         editor.recovery.write(*editor.to_keep);
         editor.kept = editor.to_keep;
         return true;
@@ -72,7 +79,8 @@ void offer_recovery(Editor& editor) {
     const Recovery& found = editor.orphan->recovery;
     const std::string title =
         found.file.empty() ? found.document.material.name : path_to_utf8(found.file.stem());
-    editor.recovery_question = {.title = title, .when = time_in_words(found.unix_time_s)};
+    editor.recovery_question = {.title = found.document.sheet ? title + " and its comparison" : title,
+                                .when = time_in_words(found.unix_time_s)};
     ++editor.changes;
 }
 
@@ -92,6 +100,7 @@ void answer_recovery(Editor& editor, ui::request::Recovery answer) {
             ++editor.opened;
         }
         editor.document = found.document;
+        if (found.document.sheet) restore_sheet(editor, *found.document.sheet, found.sheet_file);
         editor.history.record(editor.document, false);
         editor.autosave_seen = editor.document;
         log_line(editor, ui::Severity::Info, "Recovered the unsaved changes; save them to keep them.");
@@ -101,8 +110,12 @@ void answer_recovery(Editor& editor, ui::request::Recovery answer) {
     offer_recovery(editor);
 }
 
+bool has_unsaved_work(const Editor& editor) {
+    return is_dirty(editor.document, editor.file) || sheet_unsaved(editor);
+}
+
 void keep_work(Editor& editor, double now_s) {
-    const bool dirty = is_dirty(editor.document, editor.file);
+    const bool dirty = has_unsaved_work(editor);
     if (!dirty) {
         editor.to_keep.reset();
         editor.autosave.written();
@@ -112,7 +125,7 @@ void keep_work(Editor& editor, double now_s) {
         editor.autosave_seen = editor.document;
     }
     if (dirty && editor.autosave.due(now_s)) {
-        editor.to_keep = to_json(Recovery{editor.document, editor.file.path, std::time(nullptr)});
+        editor.to_keep = to_json(recovery_of(editor));
         editor.autosave.written();
     }
     bring_recovery_file_up_to_date(editor);

@@ -125,7 +125,7 @@ auto comparison_verbs(Editor& editor) {
     return Overloaded{
         [&editor](const ask_for::ShowSheet& r) { show_sheet(editor, r.shown); },
         [&editor](const ask_for::ChangeSheet& r) { change_sheet(editor, r); },
-        [&editor](const ask_for::OpenSheet& r) { open_sheet(editor, r.file); },
+        [&editor](const ask_for::OpenSheet& r) { ask_open_sheet(editor, r.file); },
         [&editor](const ask_for::SaveSheet&) { save_sheet(editor); },
         [&editor](const ask_for::SaveSheetAs& r) { save_sheet_as(editor, r.file); },
         [&editor](const ask_for::SetPhoto& r) { set_photo(editor, editor.ui.sheet_selected, r.file); },

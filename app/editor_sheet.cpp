@@ -15,8 +15,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path kept_sheet() { return state_folder() / "comparison.json"; }
-
 /// The selected view's place; nullopt without a sheet.
 std::optional<ViewPlace> selected_place(const Editor& editor) {
     if (!editor.document.sheet) return std::nullopt;
@@ -44,25 +42,12 @@ const SheetPreset& sheet_preset(Editor& editor, const std::string& name) {
 void start_sheet(Editor& editor, Comparison comparison, const fs::path& file) {
     SheetFile& opened = editor.sheet.files[int(editor.sheet.files.size()) + 1];
     editor.document.sheet_opened = int(editor.sheet.files.size());
-    opened.path = file;
-    if (!file.empty()) opened.saved = comparison;
+    opened = {file, comparison};
     editor.camera = comparison.camera;
     editor.ui.sheet_selected = 0;
     editor.ui.sheet_enlarged = -1;
     editor.document.sheet = std::move(comparison);
     ++editor.changes;
-}
-
-/// A sheet that was not saved when the program ended.
-std::optional<Comparison> left_sheet(Editor& editor) {
-    std::error_code ignored;
-    if (!fs::exists(kept_sheet(), ignored)) return std::nullopt;
-    try {
-        return load_comparison(kept_sheet()).comparison;
-    } catch (const std::exception& error) {
-        log_line(editor, ui::Severity::Warning, error.what());
-        return std::nullopt;
-    }
 }
 
 }  // namespace
@@ -157,11 +142,6 @@ void show_sheet(Editor& editor, bool shown) {
         editor.document.sheet = std::exchange(editor.sheet.put_away, std::nullopt);
         return;
     }
-    if (std::optional<Comparison> left = left_sheet(editor)) {
-        start_sheet(editor, std::move(*left), {});
-        say_status(editor, "The comparison that was not saved last time.");
-        return;
-    }
     const Document& document = editor.document;
     start_sheet(
         editor,
@@ -204,16 +184,18 @@ bool save_sheet_as(Editor& editor, const std::string& chosen) {
         save_comparison(file, comparison);
         editor.document.sheet->camera = editor.camera;
         editor.sheet.files[editor.document.sheet_opened] = {file, editor.document.sheet};
-        fs::remove(kept_sheet(), ignored);
         log_line(editor, ui::Severity::Info, "Saved " + path_to_utf8(file.filename()) + ".");
-        return true;
     } catch (const std::exception& error) {
         log_line(editor, ui::Severity::Error, error.what());
+        editor.waiting.reset();
         return false;
     }
+    if (editor.waiting) carry_on(editor);
+    return true;
 }
 
 void save_sheet(Editor& editor) {
+    if (!editor.document.sheet && editor.sheet.put_away) show_sheet(editor, true);
     if (!editor.document.sheet) return;
     if (sheet_file(editor).path.empty()) return open_browser(editor, ui::BrowserPurpose::SaveComparison);
     save_sheet_as(editor, path_to_utf8(sheet_file(editor).path));
@@ -240,18 +222,33 @@ void set_mesh(Editor& editor, const std::string& mesh) {
     (editor.document.sheet ? editor.document.sheet->mesh : editor.document.mesh) = mesh;
 }
 
-bool sheet_unsaved(const Editor& editor) {
+std::optional<Comparison> unsaved_sheet(const Editor& editor) {
     const std::optional<Comparison>& sheet =
         editor.document.sheet ? editor.document.sheet : editor.sheet.put_away;
-    return sheet && sheet != sheet_file(editor).saved;
+    return sheet != sheet_file(editor).saved ? sheet : std::nullopt;
 }
 
-void keep_sheet(const Editor& editor) {
+bool sheet_unsaved(const Editor& editor) { return unsaved_sheet(editor).has_value(); }
+
+std::string sheet_name(const Editor& editor) {
     const std::optional<Comparison>& sheet =
         editor.document.sheet ? editor.document.sheet : editor.sheet.put_away;
-    if (!sheet || !sheet_unsaved(editor)) return;
-    fs::create_directories(state_folder());
-    save_comparison(kept_sheet(), *sheet);
+    if (sheet && !sheet->title.empty()) return sheet->title;
+    const fs::path& file = sheet_file(editor).path;
+    return file.empty() ? "Comparison" : path_to_utf8(file.stem());
+}
+
+void restore_sheet(Editor& editor, Comparison comparison, const fs::path& file) {
+    start_sheet(editor, std::move(comparison), file);
+    std::optional<Comparison>& saved = editor.sheet.files[editor.document.sheet_opened].saved;
+    saved.reset();
+    std::error_code ignored;
+    if (file.empty() || !fs::exists(file, ignored)) return;
+    try {
+        saved = load_comparison(file).comparison;
+    } catch (const std::exception& error) {
+        log_line(editor, ui::Severity::Warning, error.what());
+    }
 }
 
 }  // namespace patina

@@ -26,7 +26,7 @@ struct SheetPreset {
 /// Where a sheet lives.
 struct SheetFile {
     std::filesystem::path path;       ///< empty: never saved
-    std::optional<Comparison> saved;  ///< what it holds
+    std::optional<Comparison> saved;  ///< what it holds, or what the sheet began as; none: not known
 };
 
 struct EditorSheet {
@@ -56,6 +56,7 @@ View view_of_sheet(const Editor& editor, std::size_t view);
 /// Of the document's sheet.
 const SheetFile& sheet_file(const Editor& editor);
 void show_sheet(Editor& editor, bool shown);
+/// What was shown before is left to undo.
 void open_sheet(Editor& editor, const std::string& file);
 void save_sheet(Editor& editor);
 bool save_sheet_as(Editor& editor, const std::string& file);
@@ -63,8 +64,13 @@ bool save_sheet_as(Editor& editor, const std::string& file);
 bool set_sheet_preset(Editor& editor, const std::string& file);
 void set_light(Editor& editor, const std::string& environment);
 void set_mesh(Editor& editor, const std::string& mesh);
+/// Something of it would be lost; a new sheet that nobody has changed is not.
 bool sheet_unsaved(const Editor& editor);
-/// Without waiting: the sheet is about to be lost with the window. It is offered when a sheet is shown again.
-void keep_sheet(const Editor& editor);
+/// The sheet that is shown or put away, if it is unsaved.
+std::optional<Comparison> unsaved_sheet(const Editor& editor);
+/// Its title, or its file's name.
+std::string sheet_name(const Editor& editor);
+/// A sheet that a crash left unsaved.
+void restore_sheet(Editor& editor, Comparison comparison, const std::filesystem::path& file);
 
 }  // namespace patina

@@ -74,7 +74,8 @@ struct Editor {
 
     // Questions, and what waits for the answer.
     std::optional<ui::UnsavedQuestion> unsaved;
-    std::optional<ui::Request> waiting;  ///< New, Open or Quit
+    std::optional<ui::Request> waiting;  ///< New, Open, OpenSheet or Quit
+    std::string waiting_action;          ///< that in words
     std::optional<ui::RecoveryQuestion> recovery_question;
     std::optional<RecoveryFiles::Orphan> orphan;
 
@@ -102,7 +103,10 @@ void say_status(Editor& editor, const std::string& sentence);
 // editor_files.cpp: new, open, save, and the question before work is lost
 void ask_new(Editor& editor);
 void ask_open(Editor& editor, const std::string& file);
+void ask_open_sheet(Editor& editor, const std::string& file);
 void ask_quit(Editor& editor);
+/// After a save that something waits for.
+void carry_on(Editor& editor);
 void answer_unsaved(Editor& editor, ui::request::Choice choice);
 /// False if it failed; the document is then as it was and the log says why.
 bool open_file(Editor& editor, const std::filesystem::path& file);
@@ -117,6 +121,7 @@ void reread_preset(Editor& editor);
 // editor_keep.cpp: autosave, recovery, watching files
 void offer_recovery(Editor& editor);
 void answer_recovery(Editor& editor, ui::request::Recovery answer);
+bool has_unsaved_work(const Editor& editor);
 void keep_work(Editor& editor, double now_s);
 /// Without waiting for a quiet moment: the program is about to end badly. False if it could not be kept.
 bool keep_now(Editor& editor);

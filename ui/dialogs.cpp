@@ -66,8 +66,9 @@ void align_right(float width) {
 void draw_unsaved_question(PanelContext& context) {
     if (!context.unsaved) return;
     const UnsavedQuestion& question = *context.unsaved;
-    if (!begin_question(context, "##unsaved", "Save the changes to “" + question.title + "”?", px(440)))
-        return;
+    const char* of =
+        question.what == Unsaved::Material ? "Save the changes to “" : "Save the changes to the comparison “";
+    if (!begin_question(context, "##unsaved", of + question.title + "”?", px(440))) return;
     text_wrapped("You are about to " + question.action + ". What is not saved would be lost.", color::kMuted);
     ImGui::Dummy({0.0f, px(8)});
     using request::Choice;

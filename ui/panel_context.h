@@ -115,9 +115,11 @@ struct EnvironmentInfo {
 
 // ---- questions ----
 
+enum class Unsaved { Material, Comparison };
 struct UnsavedQuestion {
-    std::string title;   ///< the document's
+    std::string title;   ///< of the material or the comparison
     std::string action;  ///< what waits: "open Gold", "close Patina"
+    Unsaved what = Unsaved::Material;
 };
 struct RecoveryQuestion {
     std::string title;

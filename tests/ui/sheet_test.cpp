@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 namespace patina {
 namespace {
 
@@ -76,7 +79,7 @@ expect sheet_views=0
         home, "resize 1080 430\nwait idle\nkey c\nwait idle\ndrop \"" + (home / "metals.json").string() + R"("
 wait until sheet_views=6
 wait idle
-expect log~brings            # the two views that were there had no file
+expect unsaved=no            # of two views that nobody has changed nothing is lost
 key ctrl+z
 wait idle
 expect sheet_views=2
@@ -90,6 +93,62 @@ click sheet.remove
 wait idle
 expect sheet_views=4
 )"));
+}
+
+/// For what a crash would leave.
+bool wait_for_kept_work(const std::filesystem::path& state) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (std::chrono::steady_clock::now() < end) {
+        std::error_code ignored;
+        for (const auto& entry : std::filesystem::directory_iterator(state, ignored)) {
+            const std::string name = entry.path().filename().string();
+            if (name.starts_with("recovery-") && name.ends_with(".json")) return true;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+}
+
+TEST(EditorSheet, is_asked_about_before_it_is_lost_and_comes_back_after_a_crash) {
+    const Folder home;
+    Comparison one;
+    one.rows = {{.preset = "-"}};
+    one.columns = {{.environment = "furnace"}};
+    save_comparison(home / "one.json", one);
+    save_comparison(home / "two.json", one);
+    const std::string turned = "resize 640 400\nwait idle\ndrop \"" + (home / "one.json").string() + R"("
+wait until sheet_views=1
+click sheet.view.1
+key shift+right
+wait until sheet_unsaved=yes
+)";
+    EXPECT_DRIVEN(drive(home, turned + "drop \"" + (home / "two.json").string() + R"("
+wait until unsaved=asked
+click unsaved.cancel
+wait idle
+expect sheet_file~one.json
+expect sheet_rotations=5
+close
+wait until unsaved=asked
+click unsaved.save
+)"));
+    EXPECT_FLOAT_EQ(load_comparison(home / "one.json").comparison.columns[0].rotation_deg, 5.0f);
+    Program crashing(home, drive_arguments(home, turned + "wait 300 seconds\n"));
+    ASSERT_TRUE(wait_for_kept_work(home / "state")) << crashing.wait().errors;
+    crashing.kill();
+    EXPECT_DRIVEN(drive(home, R"(
+resize 640 400
+wait until recovery=asked
+click recovery.recover
+wait idle
+expect sheet_rotations=10
+expect sheet_file~one.json
+expect sheet_unsaved=yes
+close
+wait until unsaved=asked
+click unsaved.discard
+)"));
+    EXPECT_FLOAT_EQ(load_comparison(home / "one.json").comparison.columns[0].rotation_deg, 5.0f);
 }
 
 TEST(EditorSheet, a_missing_preset_is_said_in_its_view_and_the_others_are_drawn) {
