@@ -51,7 +51,11 @@ std::string file_name_from(const std::string& title) {
 }  // namespace
 
 void list_folder(Editor& editor, const std::string& folder) {
-    const FolderListing listing = list_files(folder.empty() ? likely_folder(editor) : utf8_to_path(folder));
+    const bool from_home = folder == "~" || folder.starts_with("~/");
+    const FolderListing listing = list_files(
+        folder.empty() ? likely_folder(editor)
+        : from_home    ? home_folder() / utf8_to_path(folder.substr(std::min(folder.size(), std::size_t{2})))
+                       : utf8_to_path(folder));
     ui::FileBrowser& browser = editor.browser;
     browser.folder = listing.folder;
     browser.entries = listing.entries;

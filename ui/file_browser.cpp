@@ -326,6 +326,20 @@ void draw_export_size(PanelContext& context) {
     text_line(context, ".png: the display picture   .exr: scene-linear light", color::kFaint);
 }
 
+/// A path typed as the name: its folder is shown, so that what is there is seen before it is replaced. False:
+/// it is a name alone.
+bool go_where_typed(PanelContext& context) {
+    FileBrowser& browser = context.browser;
+    const std::size_t slash = browser.file_name.find_last_of('/');
+    if (slash == std::string::npos) return false;
+    const std::string typed = slash == 0 ? "/" : browser.file_name.substr(0, slash);
+    const bool from_root = typed[0] == '/' || typed[0] == '~' || (typed.size() > 1 && typed[1] == ':');
+    browser.file_name.erase(0, slash + 1);
+    browser.typed_folder = from_root ? typed : join(browser.folder, typed);
+    enter_folder(context, browser.typed_folder);
+    return true;
+}
+
 void draw_answers(PanelContext& context) {
     FileBrowser& browser = context.browser;
     const PurposeRow& purpose = purpose_row(browser.purpose);
@@ -333,10 +347,12 @@ void draw_answers(PanelContext& context) {
     const float gap = ImGui::GetStyle().ItemSpacing.x, full = ImGui::GetContentRegionAvail().x;
     const float width = std::clamp((full - px(130) - 2.0f * gap) / 2.0f, px(72), px(96));
     const float buttons = 2.0f * (width + gap);
-    bool replaces = false;
+    bool replaces = false, goes_elsewhere = false;
     if (saves(browser.purpose)) {
-        text_field(context, "browser.file_name", browser.file_name, "The name of the file.",
+        text_field(context, "browser.file_name", browser.file_name,
+                   "The name of the file, or its whole path.",
                    {.hint = "File name", .width = full - buttons});
+        goes_elsewhere = ImGui::IsItemDeactivatedAfterEdit() && go_where_typed(context);
         replaces = exists(browser, target_of(browser));
         ImGui::SameLine();
     } else {
@@ -351,7 +367,8 @@ void draw_answers(PanelContext& context) {
     const char* tip =
         replaces ? "A file of this name is there; it will be replaced." : "Enter does the same.";
     if (button(context, "browser.confirm", replaces ? "Replace" : purpose.verb, tip,
-               {.emphasis = Emphasis::Primary, .width = width, .enabled = can_confirm(browser)}))
+               {.emphasis = Emphasis::Primary, .width = width, .enabled = can_confirm(browser)}) &&
+        !goes_elsewhere)
         confirm(context);
 }
 

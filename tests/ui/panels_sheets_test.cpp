@@ -267,6 +267,29 @@ TEST(FileBrowser, saving_adds_the_extension_and_says_when_it_replaces) {
     EXPECT_EQ(again.asked<request::SaveAs>()->file, "/home/ada/gold.json");
 }
 
+TEST(FileBrowser, a_path_typed_as_the_name_shows_its_folder_before_anything_is_written) {
+    for (const auto& [typed, folder] :
+         {std::pair{"/tmp/new/copper.json", "/tmp/new"}, std::pair{"~/copper.json", "~"},
+          std::pair{"sub/copper.json", "/home/ada/sub"}, std::pair{"/copper.json", "/"}}) {
+        Stage stage;
+        stage.key('S', true, true);
+        open_folder(stage);
+        stage.requests.clear();
+        stage.click("browser.file_name");
+        stage.key('A', true);
+        stage.type(typed);
+        stage.key(KeyEnter);
+        ASSERT_TRUE(stage.asked<request::ListFolder>()) << typed;
+        EXPECT_EQ(stage.asked<request::ListFolder>()->folder, folder);
+        EXPECT_FALSE(stage.asked<request::SaveAs>()) << typed;
+        EXPECT_EQ(stage.browser.file_name, "copper.json");
+        stage.browser.folder = "/there";
+        stage.click("browser.confirm");
+        ASSERT_TRUE(stage.asked<request::SaveAs>()) << typed;
+        EXPECT_EQ(stage.asked<request::SaveAs>()->file, "/there/copper.json");
+    }
+}
+
 TEST(FileBrowser, makes_a_folder_where_something_is_saved_and_saves_nothing_by_it) {
     Stage stage;
     stage.key('S', true, true);
