@@ -9,7 +9,7 @@ namespace patina {
 int run_report(const ReportArgs& args, const Registry& registry) {
     const std::filesystem::path output = utf8_to_path(args.output);
     const std::filesystem::path file = utf8_to_path(args.comparison);
-    require_report_name(output);
+    require_report_file(output);
     LoadedComparison loaded = load_comparison(file);
     for (const std::string& note : loaded.notes) say(note);
     Studio studio(registry, {});

@@ -186,6 +186,8 @@ void ComparisonReport::add_photos(Report& report) const {
         for (const std::string& hint : shot.hints)
             section.notes.push_back(shot.material + ", " + shot.light + ": " + hint);
         section.notes.push_back(held.title + ": " + balance_text(photo) + ".");
+        for (const std::string& note : shot.photo->notes)
+            section.notes.push_back(held.title + ": " + note + ".");
     }
     if (table.rows.empty()) return;
     std::vector<std::string> unique;
@@ -338,13 +340,18 @@ Report ComparisonReport::finish() const {
     return report;
 }
 
-void require_report_name(const fs::path& file) {
+void require_report_file(const fs::path& file) {
+    std::error_code ignored;
+    const fs::path folder = file.parent_path();
+    if (!folder.empty() && !fs::is_directory(folder, ignored))
+        throw std::runtime_error(path_to_utf8(file) +
+                                 ": there is no such folder; make it or choose another one");
     if (file.extension() != ".html" && file.extension() != ".pdf")
         throw std::runtime_error(path_to_utf8(file) + ": a report's name ends in .html or .pdf");
 }
 
 void save_report(const fs::path& file, const Report& report) {
-    require_report_name(file);
+    require_report_file(file);
     if (file.extension() == ".html") {
         const std::string html = to_html(report);
         return write_file(file, std::as_bytes(std::span(html)));

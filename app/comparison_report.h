@@ -81,8 +81,9 @@ private:
     bool gathers_ = false;                      ///< for the last shot
 };
 
-/// Throws std::runtime_error where the name ends neither in .html nor in .pdf: before anything is computed.
-void require_report_name(const std::filesystem::path& file);
+/// Throws std::runtime_error where the name ends neither in .html nor in .pdf, or its folder is not there:
+/// before anything is computed.
+void require_report_file(const std::filesystem::path& file);
 /// By the file's ending; atomic.
 void save_report(const std::filesystem::path& file, const Report& report);
 

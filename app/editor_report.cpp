@@ -103,7 +103,7 @@ void export_report(Editor& editor, const std::string& file) {
     if (!editor.document.sheet) return;
     try {
         fs::path output = utf8_to_path(file);
-        require_report_name(output);
+        require_report_file(output);
         reported_sheet(editor);  // says at once where there can be none
         editor.sheet.report = std::make_shared<ReportWork>(ReportWork{.output = std::move(output)});
         ++editor.changes;

@@ -13,6 +13,17 @@ namespace {
 
 constexpr float kPaper = 0.5f;  ///< display value where a photo does not reach
 
+int pixels_without_value(const Image& image) {
+    int count = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            bool finite = true;
+            for (int c = 0; c < 3; ++c) finite = finite && std::isfinite(texel(image, x, y, c));
+            count += finite ? 0 : 1;
+        }
+    return count;
+}
+
 }  // namespace
 
 /// Means of 2×2 pixels.
@@ -37,7 +48,11 @@ Image reduced_photo(Image image, int max_side) {
 LoadedPhoto load_photo(const Registry& registry, const std::string& file, int max_side) {
     const std::filesystem::path path = utf8_to_path(file);
     LoadedImage loaded = import_image(registry, path);
-    return {.linear = reduced_photo(linear_photo(loaded.image), max_side),
+    Image linear = linear_photo(loaded.image);
+    if (const int broken = pixels_without_value(linear); broken > 0)
+        loaded.notes.push_back(std::to_string(broken) +
+                               " pixels hold no finite number; they are neither shown nor compared");
+    return {.linear = reduced_photo(std::move(linear), max_side),
             .exif = exif_of(load_image_metadata(path)),
             .notes = std::move(loaded.notes)};
 }

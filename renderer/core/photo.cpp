@@ -27,6 +27,10 @@ glm::vec3 color_at(const Image& image, int x, int y) {
     return {texel(image, x, y, 0), texel(image, x, y, 1), texel(image, x, y, 2)};
 }
 
+bool is_finite(glm::vec3 color) {
+    return std::isfinite(color.x) && std::isfinite(color.y) && std::isfinite(color.z);
+}
+
 /// The pixels that a region holds, within the picture.
 struct Span {
     int x0, y0, x1, y1;
@@ -88,7 +92,8 @@ std::optional<glm::vec3> patch_color(const Image& photo, glm::vec2 center, float
     const int cx = int(center.x), cy = int(center.y);
     for (int y = std::max(0, cy - reach); y <= std::min(photo.height - 1, cy + reach); ++y)
         for (int x = std::max(0, cx - reach); x <= std::min(photo.width - 1, cx + reach); ++x)
-            colors.push_back(color_at(photo, x, y));
+            if (const glm::vec3 color = color_at(photo, x, y); is_finite(color)) colors.push_back(color);
+    if (colors.empty()) return std::nullopt;
     std::sort(colors.begin(), colors.end(),
               [](const glm::vec3& a, const glm::vec3& b) { return luminance(a) < luminance(b); });
     const std::size_t cut = colors.size() / 10;
@@ -163,8 +168,12 @@ Image photo_in_view(const Photo& photo, const Image& linear, glm::ivec2 view_px)
     Image result = warped(linear, *to_photo, view_px);
     const glm::vec3 gain = photo.white_balance * std::exp2(photo.exposure_ev);
     for (int y = 0; y < result.height; ++y)
-        for (int x = 0; x < result.width; ++x)
-            for (int c = 0; c < 3; ++c) set_texel(result, x, y, c, texel(result, x, y, c) * gain[c]);
+        for (int x = 0; x < result.width; ++x) {
+            const glm::vec3 color = color_at(result, x, y) * gain;
+            const bool there = is_finite(color);
+            for (int c = 0; c < 3; ++c) set_texel(result, x, y, c, there ? color[c] : 0.0f);
+            if (!there) set_texel(result, x, y, 3, 0.0f);
+        }
     return result;
 }
 

@@ -64,8 +64,8 @@ struct Residual {
         0.0f;  ///< (render − photo) / photo of the mean luminances; > 0: the render is brighter
     float luminance_rms = 0.0f;  ///< root mean square of render − photo, over the photo's mean luminance
 };
-/// Over what the photo covers of the region; values above 1 count as 1 for ΔE, as on paper, not for
-/// luminance.
+/// Over what the photo covers of the region with finite numbers; values above 1 count as 1 for ΔE, as on
+/// paper, not for luminance.
 Residual residual_of(const Image& photo_in_view, const Image& render, const std::optional<Region>& region);
 /// ΔE2000 a pixel, negative where nothing is compared: 1 channel of F32.
 Image delta_e_picture(const Image& photo_in_view, const Image& render, const std::optional<Region>& region);

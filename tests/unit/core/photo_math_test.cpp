@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace patina {
 namespace {
@@ -212,6 +213,23 @@ TEST(PhotoResidual, says_which_is_brighter_and_by_how_much) {
     EXPECT_NEAR(residual.luminance_bias, 0.25f, 1e-4f);
     EXPECT_NEAR(residual.luminance_rms, 0.25f, 1e-4f);
     EXPECT_NEAR(residual.delta_e_95, residual.delta_e, 1e-5f);
+}
+
+TEST(PhotoInView, what_is_no_number_is_not_there) {
+    Image photo = painted(8, 8, [](float, float) { return glm::vec3(0.2f); });
+    set_texel(photo, 1, 1, 0, std::numeric_limits<float>::quiet_NaN());
+    set_texel(photo, 6, 6, 2, std::numeric_limits<float>::infinity());
+    const Image view = photo_in_view({}, photo, {8, 8});
+    EXPECT_EQ(texel(view, 1, 1, 3), 0.0f);
+    EXPECT_EQ(texel(view, 6, 6, 3), 0.0f);
+    EXPECT_EQ(texel(view, 4, 4, 3), 1.0f);
+    const Residual residual =
+        residual_of(view, painted(8, 8, [](float, float) { return glm::vec3(0.2f); }), {});
+    EXPECT_LT(residual.pixels, 64);
+    EXPECT_GT(residual.pixels, 30);
+    EXPECT_NEAR(residual.delta_e, 0.0f, 1e-4f);
+    EXPECT_TRUE(patch_color(photo, {1.5f, 1.5f}, 2.0f)) << "of what is left";
+    EXPECT_FALSE(patch_color(photo, {1.5f, 1.5f}, 0.0f));
 }
 
 TEST(PhotoResidual, its_picture_holds_the_same_differences) {
