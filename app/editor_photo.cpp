@@ -88,9 +88,10 @@ void compare_photo(Editor& editor, const DrawnPhotoView& drawn, const Photo& pho
             made->in_view = photo_in_view(photo, loaded->linear, {render->width, render->height});
             const Image& in_view = made->in_view;
             made->overlay = overlay_of(in_view);
-            made->heat = heat_picture(delta_e_picture(in_view, *render, photo.region), kHeatWhite);
+            Image delta_e;
+            made->residual = residual_of(in_view, *render, photo.region, &delta_e);
+            made->heat = heat_picture(delta_e, kHeatWhite);
             made->luminance = luminance_picture(in_view, *render, photo.region, kLuminanceWhite);
-            made->residual = residual_of(in_view, *render, photo.region);
             return [&editor, view, made] {
                 PhotoShown& result = editor.photos.views[view];
                 result.fitted = editor.renderer.upload_thumbnail(made->overlay);

@@ -167,14 +167,20 @@ void Loop::fill_probe(ui::PanelContext& context) {
     }
 }
 
+/// Of what is seen: none is made for a page that is not open.
 void Loop::fill_thumbnails() {
     Thumbnails& thumbnails = editor_.thumbnails;
-    for (ui::CatalogItem& item : editor_.catalog.presets)
-        item.thumbnail = thumbnails.texture(Thumbnails::Kind::Preset, item.id);
-    for (ui::CatalogItem& item : editor_.catalog.environments)
-        item.thumbnail = thumbnails.texture(Thumbnails::Kind::Environment, item.id);
-    for (ui::CatalogItem& item : editor_.catalog.meshes)
-        item.thumbnail = thumbnails.texture(Thumbnails::Kind::Mesh, item.id);
+    const ui::UiState& ui = editor_.ui;
+    const std::string page = !ui.show_library ? "" : ui.left_tab.empty() ? "presets" : ui.left_tab;
+    const std::string light = bind_view(editor_).environment;  // the Light page shows it
+    const auto fill = [&](std::vector<ui::CatalogItem>& items, Thumbnails::Kind kind, const char* of_page) {
+        for (ui::CatalogItem& item : items)
+            if (page == of_page || (kind == Thumbnails::Kind::Environment && item.id == light))
+                item.thumbnail = thumbnails.texture(kind, item.id);
+    };
+    fill(editor_.catalog.presets, Thumbnails::Kind::Preset, "presets");
+    fill(editor_.catalog.environments, Thumbnails::Kind::Environment, "environments");
+    fill(editor_.catalog.meshes, Thumbnails::Kind::Mesh, "meshes");
     if (editor_.import_sheet)
         for (ui::ImportRow& row : editor_.import_sheet->rows)
             row.thumbnail = thumbnails.texture(Thumbnails::Kind::Picture, row.file);

@@ -72,8 +72,9 @@ PhotoShot shoot_photo(const Photo& photo, const LoadedPhoto& loaded, const Image
     PhotoShot shot{.title = photo_title(photo), .exif = loaded.exif};
     shot.linear = photo_in_view(photo, loaded.linear, {render.width, render.height});
     shot.picture = display_of_linear(shot.linear);
-    shot.residual = residual_of(shot.linear, render, photo.region);
-    shot.heat = heat_picture(delta_e_picture(shot.linear, render, photo.region), kHeatWhite);
+    Image delta_e;
+    shot.residual = residual_of(shot.linear, render, photo.region, &delta_e);
+    shot.heat = heat_picture(delta_e, kHeatWhite);
     shot.luminance = luminance_picture(shot.linear, render, photo.region, kLuminanceWhite);
     return shot;
 }

@@ -16,6 +16,9 @@ double lab_curve(double t) {
 
 double radians(double degrees) { return degrees * kPi / 180.0; }
 
+/// Length of (a, b); Lab's values are far from where squares overflow.
+double length(double a, double b) { return std::sqrt(a * a + b * b); }
+
 /// Hue in degrees 0…360; 0 for grey.
 double hue(double a, double b) {
     if (a == 0.0 && b == 0.0) return 0.0;
@@ -25,7 +28,7 @@ double hue(double a, double b) {
 
 /// C^7/(C^7 + 25^7) under a root: how blue the region of neutral colours is taken.
 double chroma_weight(double chroma) {
-    const double power = std::pow(chroma, 7.0);
+    const double square = chroma * chroma, power = square * square * square * chroma;
     return std::sqrt(power / (power + 6103515625.0));  // 25^7
 }
 
@@ -59,10 +62,10 @@ glm::vec3 lab_of(glm::vec3 linear) {
 float delta_e_2000(glm::vec3 lab_a, glm::vec3 lab_b) {
     const double l1 = double(lab_a.x), l2 = double(lab_b.x);
     const double mean_chroma =
-        0.5 * (std::hypot(double(lab_a.y), double(lab_a.z)) + std::hypot(double(lab_b.y), double(lab_b.z)));
+        0.5 * (length(double(lab_a.y), double(lab_a.z)) + length(double(lab_b.y), double(lab_b.z)));
     const double stretch = 1.0 + 0.5 * (1.0 - chroma_weight(mean_chroma));
     const double a1 = stretch * double(lab_a.y), a2 = stretch * double(lab_b.y);
-    const double c1 = std::hypot(a1, double(lab_a.z)), c2 = std::hypot(a2, double(lab_b.z));
+    const double c1 = length(a1, double(lab_a.z)), c2 = length(a2, double(lab_b.z));
     const HuePair h = hues(hue(a1, double(lab_a.z)), hue(a2, double(lab_b.z)), c1 * c2 == 0.0);
     const double dl = l2 - l1, dc = c2 - c1;
     const double dh = 2.0 * std::sqrt(c1 * c2) * std::sin(radians(0.5 * h.difference));
@@ -70,7 +73,8 @@ float delta_e_2000(glm::vec3 lab_a, glm::vec3 lab_b) {
     const double t = 1.0 - 0.17 * std::cos(radians(h.mean - 30.0)) + 0.24 * std::cos(radians(2.0 * h.mean)) +
                      0.32 * std::cos(radians(3.0 * h.mean + 6.0)) -
                      0.20 * std::cos(radians(4.0 * h.mean - 63.0));
-    const double turn = 30.0 * std::exp(-std::pow((h.mean - 275.0) / 25.0, 2.0));
+    const double blue = (h.mean - 275.0) / 25.0;
+    const double turn = 30.0 * std::exp(-blue * blue);
     const double rotation = -2.0 * chroma_weight(c) * std::sin(radians(2.0 * turn));
     const double off_middle = (l - 50.0) * (l - 50.0);
     const double sl = 1.0 + 0.015 * off_middle / std::sqrt(20.0 + off_middle);

@@ -53,6 +53,13 @@ void for_compared(const Image& photo, const Image& render, const std::optional<R
             if (texel(photo, x, y, 3) > 0.5f) act(x, y, color_at(photo, x, y), color_at(render, x, y));
 }
 
+Image filled(int width, int height, float value) {
+    Image image = make_image(width, height, 1, PixelType::F32);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) set_texel(image, x, y, 0, value);
+    return image;
+}
+
 float difference(glm::vec3 photo, glm::vec3 render) {
     const auto shown = [](glm::vec3 color) { return lab_of(glm::clamp(color, 0.0f, 1.0f)); };
     return delta_e_2000(shown(photo), shown(render));
@@ -177,11 +184,14 @@ Image photo_in_view(const Photo& photo, const Image& linear, glm::ivec2 view_px)
     return result;
 }
 
-Residual residual_of(const Image& photo, const Image& render, const std::optional<Region>& region) {
+Residual residual_of(const Image& photo, const Image& render, const std::optional<Region>& region,
+                     Image* delta_e) {
+    if (delta_e) *delta_e = filled(photo.width, photo.height, -1.0f);
     std::vector<float> differences;
     double sum = 0.0, photo_light = 0.0, render_light = 0.0, squares = 0.0;
-    for_compared(photo, render, region, [&](int, int, glm::vec3 seen, glm::vec3 made) {
+    for_compared(photo, render, region, [&](int x, int y, glm::vec3 seen, glm::vec3 made) {
         differences.push_back(difference(seen, made));
+        if (delta_e) set_texel(*delta_e, x, y, 0, differences.back());
         sum += double(differences.back());
         const double a = double(luminance(seen)), b = double(luminance(made));
         photo_light += a;
@@ -199,16 +209,6 @@ Residual residual_of(const Image& photo, const Image& render, const std::optiona
     residual.luminance_bias = float((render_light - photo_light) / light);
     residual.luminance_rms = float(std::sqrt(squares / n) / (light / n));
     return residual;
-}
-
-Image delta_e_picture(const Image& photo, const Image& render, const std::optional<Region>& region) {
-    Image picture = make_image(photo.width, photo.height, 1, PixelType::F32);
-    for (int y = 0; y < picture.height; ++y)
-        for (int x = 0; x < picture.width; ++x) set_texel(picture, x, y, 0, -1.0f);
-    for_compared(photo, render, region, [&](int x, int y, glm::vec3 seen, glm::vec3 made) {
-        set_texel(picture, x, y, 0, difference(seen, made));
-    });
-    return picture;
 }
 
 Image luminance_picture(const Image& photo, const Image& render, const std::optional<Region>& region,

@@ -66,9 +66,9 @@ struct Residual {
 };
 /// Over what the photo covers of the region with finite numbers; values above 1 count as 1 for ΔE, as on
 /// paper, not for luminance.
-Residual residual_of(const Image& photo_in_view, const Image& render, const std::optional<Region>& region);
-/// ΔE2000 a pixel, negative where nothing is compared: 1 channel of F32.
-Image delta_e_picture(const Image& photo_in_view, const Image& render, const std::optional<Region>& region);
+/// delta_e: where each pixel's ΔE2000 goes, negative where nothing is compared: 1 channel of F32.
+Residual residual_of(const Image& photo_in_view, const Image& render, const std::optional<Region>& region,
+                     Image* delta_e = nullptr);
 /// Where the pictures of differences end.
 inline constexpr float kHeatWhite = 20.0f;      ///< ΔE2000
 inline constexpr float kLuminanceWhite = 1.0f;  ///< of the photo's mean luminance

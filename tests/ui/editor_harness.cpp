@@ -137,6 +137,16 @@ std::vector<std::string> drive_arguments(const Folder& home, const std::string& 
     return arguments;
 }
 
+void start_small(const Folder& home, int width, int height) {
+    write_text(home / "state/settings.json", "{\"window_width\": " + std::to_string(width) +
+                                                 ", \"window_height\": " + std::to_string(height) +
+                                                 ", \"show_library\": false}");
+}
+
+fs::path shipped_preset(const std::string& id) {
+    return fs::path(PATINA_PROGRAM).parent_path().parent_path() / "share/patina/presets" / (id + ".json");
+}
+
 Outcome drive(const Folder& home, const std::string& script, std::vector<std::string> arguments) {
     Program program(home, drive_arguments(home, script, std::move(arguments)));
     return program.wait();

@@ -53,6 +53,11 @@ private:
     bool over_ = false;
 };
 
+/// The next start in that folder opens a window of that size, without the library and its pictures: sooner
+/// drawn.
+void start_small(const Folder& home, int width, int height);
+/// A preset that ships.
+std::filesystem::path shipped_preset(const std::string& id);
 /// Writes the script and runs it to its end. arguments come before --drive.
 Outcome drive(const Folder& home, const std::string& script, std::vector<std::string> arguments = {});
 /// Its script came to the end without a failed expectation; needs <gtest/gtest.h>.

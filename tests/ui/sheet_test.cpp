@@ -14,10 +14,10 @@ namespace {
 
 using namespace test;
 
-TEST(EditorSheet, is_built_turned_undone_saved_and_opened_again) {
+TEST(EditorSheet, is_built_turned_undone_and_saved) {
     const Folder home;
+    start_small(home, 780, 360);
     EXPECT_DRIVEN(drive(home, R"(
-resize 1080 430              # a small window is drawn sooner
 wait idle
 key c
 wait idle
@@ -31,7 +31,8 @@ expect sheet_selected=3
 click sheet.add_preset
 wait idle
 expect sheet_views=6
-click library.presets.Gold
+drop ")" + shipped_preset("gold").string() +
+                                  R"("
 wait idle
 expect sheet_selected=6
 mark
@@ -75,9 +76,17 @@ expect sheet_views=0
     EXPECT_EQ(saved.rows[0].preset, kEditedPreset);
     EXPECT_EQ(saved.rows[1].preset, "gold");
     EXPECT_FLOAT_EQ(saved.columns[1].rotation_deg, 10.0f);
-    EXPECT_DRIVEN(drive(
-        home, "resize 1080 430\nwait idle\nkey c\nwait idle\ndrop \"" + (home / "metals.json").string() + R"("
-wait until sheet_views=6
+}
+
+TEST(EditorSheet, opened_it_stands_beside_what_was_there_and_undo_goes_across) {
+    const Folder home;
+    start_small(home, 780, 360);
+    Comparison metals;
+    metals.rows = {{}, {.preset = "gold"}};
+    metals.columns = {{.environment = "studio", .rotation_deg = 5.0f}, {.environment = "furnace"}};
+    save_comparison(home / "metals.json", metals);
+    EXPECT_DRIVEN(drive(home, "wait idle\nkey c\nwait idle\ndrop \"" + (home / "metals.json").string() + R"("
+wait until sheet_views=4
 wait idle
 expect unsaved=no            # of two views that nobody has changed nothing is lost
 key ctrl+z
@@ -88,10 +97,10 @@ key ctrl+shift+z
 wait idle
 expect sheet_file~metals.json
 expect sheet_unsaved=no
-expect sheet_rotations=5,10,5
+expect sheet_rotations=5,0
 click sheet.remove
 wait idle
-expect sheet_views=4
+expect sheet_views=2
 )"));
 }
 
@@ -111,12 +120,13 @@ bool wait_for_kept_work(const std::filesystem::path& state) {
 
 TEST(EditorSheet, is_asked_about_before_it_is_lost_and_comes_back_after_a_crash) {
     const Folder home;
+    start_small(home, 640, 360);
     Comparison one;
     one.rows = {{.preset = "-"}};
     one.columns = {{.environment = "furnace"}};
     save_comparison(home / "one.json", one);
     save_comparison(home / "two.json", one);
-    const std::string turned = "resize 640 400\nwait idle\ndrop \"" + (home / "one.json").string() + R"("
+    const std::string turned = "wait idle\ndrop \"" + (home / "one.json").string() + R"("
 wait until sheet_views=1
 click sheet.view.1
 key shift+right
@@ -137,7 +147,6 @@ click unsaved.save
     ASSERT_TRUE(wait_for_kept_work(home / "state")) << crashing.wait().errors;
     crashing.kill();
     EXPECT_DRIVEN(drive(home, R"(
-resize 640 400
 wait until recovery=asked
 click recovery.recover
 wait idle
@@ -153,6 +162,7 @@ click unsaved.discard
 
 TEST(EditorSheet, a_missing_preset_is_said_in_its_view_and_the_others_are_drawn) {
     const Folder home;
+    start_small(home, 640, 360);
     Comparison comparison;
     comparison.rows = {{.preset = "gold"}, {.preset = (home / "none.json").string()}};
     comparison.columns = {{.environment = "studio"}};
@@ -167,9 +177,9 @@ expect views>1
 
 TEST(EditorSheet, a_photo_is_balanced_by_a_card_fitted_by_points_and_saved) {
     const Folder home;
+    start_small(home, 780, 360);
     write_picture(home / "shot.png", 118, 118, 100);
     EXPECT_DRIVEN(drive(home, R"(
-resize 1080 430              # a small window is drawn sooner
 wait idle
 key c
 wait idle

@@ -140,7 +140,8 @@ TEST(SlowEditorSheet, writes_a_report_with_errors_against_the_reference_and_stay
     comparison.rows = {{.preset = "gold"}, {.preset = "rubber"}};
     comparison.columns = {{.environment = "furnace", .photo = Photo{.file = (home / "shot.png").string()}}};
     save_comparison(home / "metals.json", comparison);
-    EXPECT_DRIVEN(drive(home, "resize 900 480\nwait idle\ndrop \"" + (home / "metals.json").string() + R"("
+    start_small(home, 780, 360);
+    EXPECT_DRIVEN(drive(home, "wait idle\ndrop \"" + (home / "metals.json").string() + R"("
 wait until sheet_views=2
 wait idle
 click compare.report_reference
@@ -171,9 +172,10 @@ wait idle
 
 TEST(EditorSheet, a_photo_dropped_on_a_view_is_held_against_it) {
     const Folder home;
+    start_small(home, 860, 340);
     write_picture(home / "shot.png", 40, 90, 160);
-    EXPECT_DRIVEN(drive(home, "resize 1180 460\nwait idle\nkey c\nwait idle\ndrop \"" +
-                                  (home / "shot.png").string() + R"(" at sheet.view.2
+    EXPECT_DRIVEN(drive(
+        home, "wait idle\nkey c\nwait idle\ndrop \"" + (home / "shot.png").string() + R"(" at sheet.view.2
 wait idle
 expect sheet_selected=2
 expect no item import.apply
@@ -208,8 +210,8 @@ expect photo_opacity=none
 
 TEST(EditorSheet, a_report_is_drawn_beside_the_work_and_can_be_stopped) {
     const Folder home;
+    start_small(home, 780, 360);
     EXPECT_DRIVEN(drive(home, R"(
-resize 1080 430
 wait idle
 key c
 wait idle
@@ -232,8 +234,8 @@ expect log!~Exported
 
 TEST(EditorSheet, a_view_with_a_camera_of_its_own_stays_when_the_others_turn) {
     const Folder home;
+    start_small(home, 780, 360);
     EXPECT_DRIVEN(drive(home, R"(
-resize 900 480
 wait idle
 key c
 wait idle
@@ -256,8 +258,8 @@ expect item sheet.view.2
 
 TEST(EditorSheet, two_views_are_held_against_each_other_in_one) {
     const Folder home;
+    start_small(home, 860, 340);
     EXPECT_DRIVEN(drive(home, R"(
-resize 1180 460              # a small window is drawn sooner
 wait idle
 key c
 wait idle
@@ -302,9 +304,9 @@ expect item sheet.view.2
 
 TEST(EditorMaps, are_made_from_a_photo_worn_undone_and_never_replace_a_file) {
     const Folder home;
+    start_small(home, 780, 360);
     write_wall(home / "wall.png");
     EXPECT_DRIVEN(drive(home, R"(
-resize 1180 460              # a small window is drawn sooner
 wait idle
 click inspector.maps
 click maps.choose

@@ -235,12 +235,12 @@ TEST(PhotoInView, what_is_no_number_is_not_there) {
 TEST(PhotoResidual, its_picture_holds_the_same_differences) {
     const Image photo = painted(8, 8, [](float x, float) { return glm::vec3(x / 10.0f); });
     const Image render = painted(8, 8, [](float x, float) { return glm::vec3(x / 10.0f + 0.05f); });
-    const Image picture = delta_e_picture(covered(photo), render, Region{0.0f, 0.0f, 1.0f, 0.5f});
+    Image picture;
+    const Residual residual = residual_of(covered(photo), render, Region{0.0f, 0.0f, 1.0f, 0.5f}, &picture);
     float sum = 0.0f;
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 8; ++x) sum += texel(picture, x, y, 0);
-    EXPECT_NEAR(sum / 32.0f, residual_of(covered(photo), render, Region{0.0f, 0.0f, 1.0f, 0.5f}).delta_e,
-                1e-4f);
+    EXPECT_NEAR(sum / 32.0f, residual.delta_e, 1e-4f);
     EXPECT_LT(texel(picture, 3, 6, 0), 0.0f) << "outside of the region";
     const Image heat = heat_picture(picture, 10.0f);
     EXPECT_NEAR(texel(heat, 3, 6, 0), 0.5f, 0.01f) << "grey is not compared";
