@@ -3,6 +3,8 @@
 # each picture knows what it was made from.
 #   docs/many.sh FOLDER "LIGHT..." PRESET...          LIGHT: an id or a file without blanks in its name
 #   PATINA=build/release/bin/patina JOBS=8 OPTIONS="--mesh shaderball --size 256x256" docs/many.sh out "studio sky" presets/*.json
+# With GNU parallel, on several machines too:  parallel -S host1,host2 --wd "$PWD" patina render {1} --env {2} --up-to-date \
+#   -o out/{1/.}-{2}.png ::: presets/*.json ::: studio sky
 # On a cluster, one task a preset:  sbatch --array=1-100 --wrap 'docs/many.sh out "studio sky" \
 #   "$(ls presets/*.json | sed -n "${SLURM_ARRAY_TASK_ID}p")"'
 set -eu
