@@ -260,7 +260,10 @@ std::optional<Estimate> estimate_offset(std::span<const Trial> trials) {
         estimate.offset = vertex.x;
         estimate.delta_e = std::max(0.0f, vertex.y);
     }
-    estimate.clear = estimate.delta_e < 0.9f * estimate.now && estimate.now - estimate.delta_e > 0.5f;
+    const float gain = estimate.now - estimate.delta_e;
+    const bool visible = gain > 0.5f && estimate.delta_e < 0.9f * estimate.now;
+    const bool explains_all = gain > 0.25f && estimate.delta_e < 0.25f * estimate.now;
+    estimate.clear = visible || explains_all;
     return estimate;
 }
 

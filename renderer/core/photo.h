@@ -93,7 +93,9 @@ struct Estimate {
     float offset = 0.0f;   ///< where the parabola through the best trial and its neighbours is lowest
     float delta_e = 0.0f;  ///< expected there
     float now = 0.0f;      ///< the trial at offset 0
-    bool clear = false;    ///< better by more than a tenth and by more than half a just noticeable difference
+    /// Better by more than a tenth and by more than half a just noticeable difference; or by half of that
+    /// where it leaves less than a quarter of the difference: noise does not do that.
+    bool clear = false;
 };
 /// nullopt with fewer than three trials or none at 0. Trials in order of offset.
 std::optional<Estimate> estimate_offset(std::span<const Trial> trials);
