@@ -85,10 +85,10 @@ void write_pictures(std::string& html, const ReportSection& section) {
 
 /// A word that a page may have no room for; shorter ones keep their column as wide as they are.
 bool has_long_word(std::string_view text) {
-    constexpr std::size_t kLong = 24;
-    while (text.size() > kLong) {
+    constexpr std::size_t longest = 24;
+    while (text.size() > longest) {
         const std::size_t end = text.find(' ');
-        if (end == std::string_view::npos || end > kLong) return true;
+        if (end == std::string_view::npos || end > longest) return true;
         text.remove_prefix(end + 1);
     }
     return false;

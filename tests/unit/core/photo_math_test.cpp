@@ -267,7 +267,7 @@ TEST(PhotoEstimate, says_nothing_clear_where_nothing_helps) {
     const std::array flat{Trial{-0.1f, 3.1f}, Trial{0.0f, 3.0f}, Trial{0.1f, 3.1f}};
     EXPECT_FALSE(estimate_offset(flat)->clear);
     const auto faint = [](float floor) {
-        return std::array{Trial{-0.1f, 0.4f}, Trial{0.0f, floor + 0.3f}, Trial{0.1f, floor},
+        return std::array{Trial{-0.1f, floor + 0.6f}, Trial{0.0f, floor + 0.3f}, Trial{0.1f, floor},
                           Trial{0.2f, floor + 0.3f}};
     };
     EXPECT_TRUE(estimate_offset(faint(0.02f))->clear) << "it explains all there is";
