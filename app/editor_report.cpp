@@ -26,11 +26,11 @@ Comparison reported_sheet(const Editor& editor) {
     for (const ViewPlace place : places_of(comparison)) {
         ComparedPreset& preset = preset_at(comparison, place);
         if (preset.preset != kEditedPreset) continue;
-        if (edited.empty() || is_dirty(editor.document, editor.file))
+        if (is_dirty(editor.document, editor.file))
             throw std::runtime_error(
                 "The sheet shows the material that is being edited; save it first, so that "
                 "the report can name its file.");
-        preset.preset = path_to_utf8(edited);
+        preset.preset = edited.empty() ? "-" : path_to_utf8(edited);
     }
     return comparison;
 }
