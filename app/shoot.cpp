@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace patina {
 
@@ -49,7 +50,10 @@ LoadedPhoto load_photo(const Registry& registry, const std::string& file, int ma
     const std::filesystem::path path = utf8_to_path(file);
     LoadedImage loaded = import_image(registry, path);
     Image linear = linear_photo(loaded.image);
-    if (const int broken = pixels_without_value(linear); broken > 0)
+    const int broken = pixels_without_value(linear);
+    if (broken == linear.width * linear.height)
+        throw std::runtime_error(file + ": holds no finite number; export it again");
+    if (broken > 0)
         loaded.notes.push_back(std::to_string(broken) +
                                " pixels hold no finite number; they are neither shown nor compared");
     return {.linear = reduced_photo(std::move(linear), max_side),

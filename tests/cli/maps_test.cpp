@@ -109,7 +109,7 @@ TEST(Maps, what_cannot_be_is_one_sentence_and_leaves_nothing) {
     says({"maps", "none.jpg", "-o", "out"}, "none.jpg");
     says({"maps", "half.exr", "-o", "out"}, "half.exr");
     says({"maps", "dot.png", "-o", "out"}, "dot.png: the sample is only 1 pixels wide");
-    says({"maps", "nan.exr", "-o", "out"}, "nan.exr: the sample is black");
+    says({"maps", "nan.exr", "-o", "out"}, "nan.exr: holds no finite number");
     says(maps_command({"--corners", "0,0", "0,80", "80,80", "80,0"}), "order upper left");
     says(maps_command({"--grey", "500,500"}), "at the card");
     says({"maps", "wall.exr", "-o", "half.exr", "--size", "32x32"}, "half.exr");
