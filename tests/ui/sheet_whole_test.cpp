@@ -302,7 +302,7 @@ expect item sheet.view.2
 )"));
 }
 
-TEST(EditorMaps, are_made_from_a_photo_worn_undone_and_never_replace_a_file) {
+TEST(EditorMaps, are_made_from_a_photo_worn_and_undone) {
     const Folder home;
     start_small(home, 780, 360);
     write_wall(home / "wall.png");
@@ -339,11 +339,6 @@ expect albedo.map=
 key ctrl+shift+z
 wait idle
 expect albedo.map~wall_albedo.png
-click maps.use.normal
-click maps.make
-wait until albedo.map~wall-2_albedo.png
-wait idle
-expect normal.map~wall_normal.png
 key ctrl+s
 wait idle
 expect clean
@@ -351,11 +346,38 @@ expect clean
     EXPECT_EQ(load_image_info(home / "wall_albedo.png").width, 512);
     EXPECT_EQ(load_image_info(home / "wall_normal.png").type, PixelType::U16);
     EXPECT_EQ(load_image_info(home / "wall_height.png").type, PixelType::U16);
+    const Material saved = load_material(home / "Untitled.json").material;
+    EXPECT_EQ(saved.albedo.map, "wall_albedo.png") << "relative to the preset";
+    EXPECT_EQ(saved.albedo.value, glm::vec3(1.0f));
+}
+
+TEST(EditorMaps, never_replace_a_file_nor_a_slot_that_was_left_out) {
+    const Folder home;
+    start_small(home, 780, 360);
+    write_wall(home / "wall.png");
+    write_picture(home / "wall_albedo.png", 1, 2, 3);
+    write_text(home / "mine.json", R"({"name": "Mine"})");
+    const std::string before = read_text(home / "wall_albedo.png");
+    EXPECT_DRIVEN(drive(home, R"(
+wait idle
+click inspector.maps
+click maps.choose
+wait until item browser.entry.wall.png
+click browser.entry.wall.png
+click browser.confirm
+wait idle
+click maps.size.512
+click maps.use.normal
+wait idle
+click maps.make
+wait until albedo.map~wall-2_albedo.png
+wait idle
+expect normal.map=
+)",
+                        {(home / "mine.json").string()}));
+    EXPECT_EQ(read_text(home / "wall_albedo.png"), before);
     EXPECT_TRUE(std::filesystem::exists(home / "wall-2_albedo.png"));
     EXPECT_FALSE(std::filesystem::exists(home / "wall-2_normal.png"));
-    const Material saved = load_material(home / "Untitled.json").material;
-    EXPECT_EQ(saved.albedo.map, "wall-2_albedo.png") << "relative to the preset";
-    EXPECT_EQ(saved.albedo.value, glm::vec3(1.0f));
 }
 
 }  // namespace
