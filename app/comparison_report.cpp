@@ -95,18 +95,27 @@ void ComparisonReport::draw_view() {
               .light = lighting_title(registry_, light),
               .picture = scenes_.renderer().read_display(drawn),
               .photo = loaded.photo};
-    if (shot.photo) {
-        shot.radiance = scenes_.renderer().read_radiance(drawn);
-        if (options_.hints)
-            hints_.emplace(photo_in_view(*light.photo, shot.photo->linear, trial_size()), light.photo->region,
-                           scene);
-    }
+    if (shot.photo) to_hold_ = scene;
+    drawn_ = &drawn;
     if (options_.reference_samples > 0) {
         if (!reference_) reference_.emplace(scenes_.renderer(), options_.reference_samples);
         reference_->begin(scene);
         gathers_ = true;
     }
     shots_.push_back(std::move(shot));
+}
+
+/// The picture's light in one step, what hints are tried against in the next.
+void ComparisonReport::hold_against_photo() {
+    Shot& shot = shots_.back();
+    if (shot.radiance.empty()) {
+        shot.radiance = scenes_.renderer().read_radiance(*drawn_);
+        if (!options_.hints) to_hold_.reset();
+        return;
+    }
+    const Scene scene = *std::exchange(to_hold_, std::nullopt);
+    const Photo& photo = *lighting_at(comparison_, shot.place).photo;
+    hints_.emplace(photo_in_view(photo, shot.photo->linear, trial_size()), photo.region, scene);
 }
 
 void ComparisonReport::step_hints() {
@@ -122,7 +131,9 @@ void ComparisonReport::step_reference() {
 }
 
 bool ComparisonReport::step() {
-    if (hints_)
+    if (to_hold_)
+        hold_against_photo();
+    else if (hints_)
         step_hints();
     else if (gathers_)
         step_reference();
@@ -135,7 +146,7 @@ bool ComparisonReport::step() {
 
 float ComparisonReport::progress() const {
     float of_view = 0.0f;
-    if (gathers_ && !hints_)
+    if (gathers_ && !hints_ && !to_hold_)
         of_view = 0.5f + 0.5f * reference_->done();
     else if (hints_)
         of_view = (gathers_ ? 0.5f : 1.0f) * hints_->done();

@@ -7,6 +7,7 @@
 #include "app/reference_error.h"
 #include "app/report.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -55,10 +56,11 @@ private:
         std::shared_ptr<const LoadedPhoto> photo;
     };
     /// Trials are drawn smaller: nine roughnesses and seven colours of every view with a photo.
-    glm::ivec2 trial_size() const { return glm::ivec2(options_.picture_px / 2); }
-    bool unfinished() const { return hints_ || gathers_; }
+    glm::ivec2 trial_size() const { return glm::ivec2(std::max(options_.picture_px / 4, 1)); }
+    bool unfinished() const { return to_hold_ || hints_ || gathers_; }
     void load_view();
     void draw_view();
+    void hold_against_photo();
     void step_hints();
     void step_reference();
     ReportSection sheet() const;
@@ -76,6 +78,8 @@ private:
     std::vector<ViewPlace> places_;
     std::optional<Loaded> loaded_;
     std::vector<Shot> shots_;
+    std::optional<Scene> to_hold_;              ///< the last shot's, to be held against its photo
+    const RenderTarget* drawn_ = nullptr;       ///< that, drawn
     std::optional<HintSearch> hints_;           ///< of the last shot
     std::optional<ReferenceSearch> reference_;  ///< from the first view on that is held against it
     bool gathers_ = false;                      ///< for the last shot
