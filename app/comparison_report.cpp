@@ -220,16 +220,21 @@ void ComparisonReport::add_errors(Report& report) const {
         .rows = {}};
     for (const Shot& shot : shots_) {
         const ReferenceError found = error_of(*shot.reference);
-        table.rows.push_back({shot.material, shot.light, formatted("%.2f %%", 100.0 * found.error.rms),
-                              formatted("%.2f %%", 100.0 * found.error.p95), formatted("%.3f", found.flip),
-                              formatted("%.2f %%", 100.0 * found.known)});
+        const char* bound = found.known > found.error.rms ? "< " : "";
+        table.rows.push_back(
+            {shot.material, shot.light, bound + formatted("%.2f %%", 100.0 * found.error.rms),
+             bound + formatted("%.2f %%", 100.0 * found.error.p95), bound + formatted("%.3f", found.flip),
+             formatted("%.2f %%", 100.0 * found.known)});
     }
     section.table = std::move(table);
-    section.notes.push_back(formatted(
-        "The shading against the reflectance integral, as shares of the light on the object; the last "
-        "column is how well 95 of 100 pixels of the integral are known: sampled to %.0f %%, with at "
-        "most %d points a pixel.",
-        100.0 * kReferenceKnown, reference_->samples()));
+    section.notes.push_back(
+        "The shading against the reflectance integral, as shares of the light on the object. The last column "
+        "is "
+        "how well 95 of 100 pixels of the integral are known, sampled " +
+        formatted("to %.0f %% with at most %d points a pixel", 100.0 * kReferenceKnown,
+                  reference_->samples()) +
+        ". Where that is worse than the error, the error is mostly the samples' noise and stands as a bound "
+        "(<).");
     report.sections.push_back(std::move(section));
 }
 
