@@ -80,6 +80,7 @@ void read_lighting(JsonObject& object, Lighting& light) {
         light.camera = Camera{};
         read_camera(std::move(*camera), *light.camera);
     }
+    object.read_choice("shading", kShadings, light.shading);
     if (auto photo = object.object("photo")) light.photo = read_photo(std::move(*photo));
 }
 
@@ -150,6 +151,7 @@ void write_lighting(Json& json, const Lighting& light) {
     json["background"] = named(kBackgrounds, light.background).id;
     if (light.plain_color != Lighting{}.plain_color) json["plain_color"] = json_of(light.plain_color);
     if (light.camera) json["camera"] = json_of(*light.camera);
+    if (light.shading) json["shading"] = named(kShadings, *light.shading).id;
     if (light.photo) json["photo"] = json_of(*light.photo);
     add_unknown(json, light.unknown_json);
 }

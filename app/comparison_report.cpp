@@ -307,7 +307,7 @@ std::string ComparisonReport::render_command(const Shot& shot) const {
     if (light.exposure_ev != 0.0f) command += " --exposure " + number(double(light.exposure_ev));
     command += " --tonemap " + std::string(named(kTonemaps, light.tonemap).id) + " --background " +
                std::string(named(kBackgrounds, light.background).id) + " --shading " +
-               std::string(named(kShadings, comparison.shading).id) + " --camera " +
+               std::string(named(kShadings, view_of(comparison, light).shading).id) + " --camera " +
                number(double(camera.yaw_deg)) + "," + number(double(camera.pitch_deg)) + "," +
                number(double(camera.distance));
     const std::string side = std::to_string(options_.picture_px);

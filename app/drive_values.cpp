@@ -84,6 +84,15 @@ std::string sheet_yaws(const DriveView& view) {
     return text;
 }
 
+/// As each view is shaded.
+std::string sheet_shadings(const DriveView& view) {
+    std::string text;
+    if (!view.editor.document.sheet) return text;
+    for (std::size_t i = 0; i < places_of(*view.editor.document.sheet).size(); ++i)
+        text += (i > 0 ? "," : "") + std::string(named(kShadings, view_of_sheet(view.editor, i).shading).id);
+    return text;
+}
+
 /// The first hint of the selected view; empty: none, or not known yet.
 std::string photo_hint(const DriveView& view) {
     const auto& hints = view.editor.photos.views[std::size_t(view.editor.ui.sheet_selected)].hints;
@@ -162,6 +171,7 @@ constexpr std::array kValues{
                [](const DriveView& v) { return std::string(sheet_unsaved(v.editor) ? "yes" : "no"); }},
     NamedValue{"sheet_yaws", sheet_yaws},
     NamedValue{"photo_hint", photo_hint},
+    NamedValue{"sheet_shadings", sheet_shadings},
     NamedValue{"sheet_rotations",
                [](const DriveView& v) {
                    std::string text;

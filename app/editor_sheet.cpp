@@ -90,7 +90,7 @@ void take_binding(Editor& editor, const ViewBinding& before, const ViewBinding& 
     if (is_reference(after.view) && !is_reference(before.view))
         say_status(editor, "The reference gathers one view at a time; go back to the one view for it.");
     else
-        sheet.shading = after.view.shading;
+        (light.shading ? *light.shading : sheet.shading) = after.view.shading;
     sheet.quality = after.view.quality;
     sheet.mesh = after.mesh;
     document.view.debug = after.view.debug;

@@ -97,6 +97,7 @@ std::string lighting_title(const Registry& registry, const Lighting& lighting) {
     std::string title = environment_title(registry, lighting.environment);
     if (lighting.rotation_deg != 0.0f) title += formatted("  %.0f°", double(lighting.rotation_deg));
     if (lighting.exposure_ev != 0.0f) title += formatted("  %+.1f EV", double(lighting.exposure_ev));
+    if (lighting.shading) title += "  " + std::string(named(kShadings, *lighting.shading).title);
     return title;
 }
 std::string photo_title(const Photo& photo) {

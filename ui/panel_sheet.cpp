@@ -69,6 +69,11 @@ void draw_selected(PanelContext& context) {
     if (checkbox(context, "compare.own_camera", "A camera of its own",
                  "The view does not follow when the others are turned.", own))
         light.camera = own ? std::optional(context.camera) : std::nullopt;
+    bool own_mode = light.shading.has_value();
+    if (checkbox(context, "compare.own_shading", "A shading mode of its own",
+                 "The toolbar's choice is this light's alone: for holding two modes against each other.",
+                 own_mode))
+        light.shading = own_mode ? std::optional(context.view.shading) : std::nullopt;
     text_row(context,
              {.name = "compare.light_title",
               .label = "Light",

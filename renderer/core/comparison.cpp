@@ -38,7 +38,7 @@ View view_of(const Comparison& comparison, const Lighting& lighting) {
             .tonemap = lighting.tonemap,
             .background = lighting.background,
             .plain_color = lighting.plain_color,
-            .shading = comparison.shading,
+            .shading = lighting.shading.value_or(comparison.shading),
             .quality = comparison.quality};
 }
 
@@ -146,6 +146,7 @@ const char* describe_lighting(const Lighting& before, const Lighting& after) {
         return before.photo && after.photo ? describe_photo(*before.photo, *after.photo) : "Photo";
     if (before.title != after.title) return "Title";
     if (before.camera != after.camera) return "Camera";
+    if (before.shading != after.shading) return "Shading";
     return "Background";
 }
 }  // namespace

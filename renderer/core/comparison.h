@@ -54,9 +54,10 @@ struct Lighting {
     float exposure_ev = 0.0f;            ///< −30…30
     Tonemap tonemap = Tonemap::Neutral;
     Background background = Background::Environment;
-    glm::vec3 plain_color{0.18f};  ///< linear, 0…1
-    std::optional<Camera> camera;  ///< of its own; without: the comparison's
-    std::optional<Photo> photo;    ///< taken under this light
+    glm::vec3 plain_color{0.18f};    ///< linear, 0…1
+    std::optional<Camera> camera;    ///< of its own; without: the comparison's
+    std::optional<Shading> shading;  ///< likewise; never the reference
+    std::optional<Photo> photo;      ///< taken under this light
     std::string unknown_json;
     bool operator==(const Lighting&) const = default;
 };

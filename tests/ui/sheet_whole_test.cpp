@@ -256,6 +256,37 @@ expect item sheet.view.2
 )"));
 }
 
+TEST(EditorSheet, a_light_with_a_shading_mode_of_its_own_is_held_against_the_others) {
+    const Folder home;
+    start_small(home, 860, 400);
+    Comparison twice;
+    twice.rows = {{.preset = "-"}};
+    twice.columns = {{.environment = "furnace"}, {.environment = "furnace", .shading = Shading::SplitSum}};
+    save_comparison(home / "twice.json", twice);
+    EXPECT_DRIVEN(drive(home, "wait idle\ndrop \"" + (home / "twice.json").string() + R"("
+wait until sheet_views=2
+wait idle
+expect sheet_shadings=fitted,split-sum
+click sheet.view.2
+click toolbar.shading
+click toolbar.shading.course
+wait idle
+expect sheet_shadings=fitted,course
+double-click sheet.view.1
+wait idle
+click sheet.against
+click "sheet.against.2__untitled_·_white_furnace__course"
+click sheet.how.relative
+wait idle
+expect item viewport.legend.error
+click sheet.back
+click sheet.view.2
+click compare.own_shading
+wait idle
+expect sheet_shadings=fitted,fitted
+)"));
+}
+
 TEST(EditorSheet, two_views_are_held_against_each_other_in_one) {
     const Folder home;
     start_small(home, 860, 340);

@@ -40,6 +40,7 @@ Comparison everything() {
                   .background = Background::Plain,
                   .plain_color = {0.1f, 0.2f, 0.3f},
                   .camera = Camera{.yaw_deg = -40.0f, .distance = 3.0f},
+                  .shading = Shading::Course,
                   .photo = photo}};
     c.views = {{{.preset = "copper", .title = "Own"}, {.title = "Its light", .environment = "night"}}};
     return c;
