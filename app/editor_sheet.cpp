@@ -89,7 +89,7 @@ void take_binding(Editor& editor, const ViewBinding& before, const ViewBinding& 
     if (after.environment != before.environment) light.title.clear();
     if (is_reference(after.view) && !is_reference(before.view))
         say_status(editor, "The reference gathers one view at a time; go back to the one view for it.");
-    else
+    else if (after.view.shading != before.view.shading)
         (light.shading ? *light.shading : sheet.shading) = after.view.shading;
     sheet.quality = after.view.quality;
     sheet.mesh = after.mesh;
