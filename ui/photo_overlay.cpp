@@ -307,14 +307,14 @@ void draw_photo_rows(PanelContext& context, int view) {
     draw_photo_numbers(context, *photo);
     draw_photo_tools(context, *photo, full);
     draw_undoing(context, *photo, full);
-    static constexpr std::array kLayers{
+    static constexpr std::array layers{
         Option{"Photo", "The photo, as opaque as set above."},
         Option{"ΔE", "CIEDE2000 in colours: black is equal, white is 20 and more, grey is not compared."},
         Option{"Luminance",
                "Where the render is darker (blue) or brighter (red) than the photo, up to the "
                "photo's mean luminance."}};
     int layer = int(context.ui.photo_layer);
-    if (segmented(context, "compare.photo.layer", kLayers, layer)) context.ui.photo_layer = PhotoLayer(layer);
+    if (segmented(context, "compare.photo.layer", layers, layer)) context.ui.photo_layer = PhotoLayer(layer);
     if (button(context, "compare.photo.remove", "Remove the photo", "The file stays.", {.width = full})) {
         context.ui.photo_tool = PhotoTool::None;
         context.requests.push_back(request::ChangeSheet{request::SheetChange::RemovePhoto, view});
