@@ -27,11 +27,11 @@ struct Grid {
 /// As the comparison's own grid where everything in it is seen, else what fills the region best: so does a
 /// single row or column of views that would become slits.
 Grid grid_of(const Comparison& sheet, std::size_t views, float aspect) {
-    constexpr float kSlit = 2.5f;
+    constexpr float slit = 2.5f;
     Grid own{std::max(1, int(sheet.columns.size())), int(sheet.rows.size())};
     const bool whole = sheet.views.empty() && views == sheet.rows.size() * sheet.columns.size();
     const float cell = aspect * float(own.rows) / float(own.columns);
-    const bool slits = std::min(own.rows, own.columns) == 1 && std::max(cell, 1.0f / cell) > kSlit;
+    const bool slits = std::min(own.rows, own.columns) == 1 && std::max(cell, 1.0f / cell) > slit;
     if (whole && !slits) return own;
     const int columns = grid_columns(views, aspect, 1.0f);
     return {columns, (int(views) + columns - 1) / columns};
