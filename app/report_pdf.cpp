@@ -297,15 +297,18 @@ private:
         };
         measure(table.header, kTableHead);
         for (const auto& cells : table.rows) measure(cells, kTable);
-        float sum = 0.0f;
-        for (const float width : widths) sum += width;
-        // Too wide: the wide columns give what is missing.
-        const float fair = kTextWidth / float(std::max<std::size_t>(widths.size(), 1));
-        float wide = 0.0f;
-        for (const float width : widths) wide += std::max(0.0f, width - fair);
-        if (sum > kTextWidth && wide > 0.0f)
-            for (float& width : widths)
-                width -= std::max(0.0f, width - fair) * std::min(1.0f, (sum - kTextWidth) / wide);
+        // Where there is too little room, the widest columns give way, all to one width.
+        std::vector<float> narrow_first = widths;
+        std::ranges::sort(narrow_first);
+        float room = kTextWidth;
+        for (std::size_t i = 0; i < narrow_first.size(); ++i) {
+            const float fair = room / float(narrow_first.size() - i);
+            if (narrow_first[i] > fair) {
+                for (float& width : widths) width = std::min(width, fair);
+                break;
+            }
+            room -= narrow_first[i];
+        }
         return widths;
     }
     float table_row_height(const std::vector<std::string>& cells, const std::vector<float>& widths,
