@@ -24,6 +24,8 @@ struct Stage {
     UiState ui;
     FileBrowser browser;
     std::optional<ImportSheet> import_sheet;
+    std::optional<Comparison> sheet;
+    std::vector<SheetCell> sheet_cells;  ///< one a view of it
     Catalog catalog;
     Status status;
     std::array<MapStatus, kMapSlots> maps;
@@ -91,6 +93,8 @@ struct Stage {
                              .drag_over = drag_over,
                              .scale = scale,
                              .recorder = &recorder};
+        context.sheet = sheet ? &*sheet : nullptr;
+        context.sheet_cells = sheet_cells;
         draw_workspace(context);
         ImGui::Render();
         drop.reset();

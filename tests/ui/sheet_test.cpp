@@ -233,6 +233,50 @@ wait idle
 
 using ui::Stage;
 
+void show_sheet_of(Stage& stage, std::size_t rows, std::size_t columns) {
+    stage.sheet = Comparison{};
+    stage.sheet->rows.resize(rows);
+    stage.sheet->columns.resize(columns);
+    stage.sheet_cells.assign(rows * columns, {.preset = "Émail très foncé, a long name", .light = "Studio"});
+    stage.ui.right_tab = "sheet";
+    stage.frames(3);
+}
+
+TEST(SheetPanel, a_single_row_or_column_wraps_before_its_views_become_slits) {
+    for (const auto& [rows, columns] : {std::pair{1, 16}, std::pair{16, 1}, std::pair{1, 9}}) {
+        Stage stage;
+        show_sheet_of(stage, std::size_t(rows), std::size_t(columns));
+        for (int view = 1; view <= rows * columns; ++view) {
+            const ui::Rect rect = stage.item("sheet.view." + std::to_string(view)).rect;
+            EXPECT_GT(rect.width(), 0.4f * rect.height()) << rows << " rows, view " << view;
+            EXPECT_GT(rect.height(), 0.4f * rect.width()) << rows << " rows, view " << view;
+        }
+    }
+    Stage grid;  // presets below each other, lights beside each other
+    show_sheet_of(grid, 2, 8);
+    EXPECT_EQ(grid.item("sheet.view.1").rect.y0, grid.item("sheet.view.8").rect.y0);
+    EXPECT_EQ(grid.item("sheet.view.1").rect.x0, grid.item("sheet.view.9").rect.x0);
+}
+
+TEST(SheetPanel, its_texts_keep_their_labels) {
+    Stage stage;
+    show_sheet_of(stage, 1, 2);
+    stage.sheet->title = "Metals";
+    stage.frames(2);
+    for (const char* field : {"compare.title", "compare.author", "compare.remarks", "compare.light_title"})
+        EXPECT_TRUE(stage.has(std::string(field) + ".label")) << field;
+}
+
+TEST(SheetPanel, a_light_gets_a_shading_mode_of_its_own_and_gives_it_up) {
+    Stage stage;
+    show_sheet_of(stage, 1, 2);
+    stage.click("compare.own_shading");
+    EXPECT_EQ(stage.sheet->columns[0].shading, stage.view.shading);
+    EXPECT_FALSE(stage.sheet->columns[1].shading);
+    stage.click("compare.own_shading");
+    EXPECT_FALSE(stage.sheet->columns[0].shading);
+}
+
 TEST(SheetPanel, offers_to_start_where_no_sheet_is_shown) {
     Stage stage;
     stage.ui.right_tab = "sheet";
