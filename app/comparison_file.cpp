@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -67,6 +69,17 @@ void read_camera(JsonObject object, Camera& camera) {
     object.unknown();
 }
 
+/// All views are drawn at once, which the reference is not.
+void read_shading(JsonObject& object, auto& shading) {
+    constexpr auto one_draw = [] {
+        std::array<Named<Shading>, kShadings.size() - 1> rows{};
+        std::ranges::copy_if(kShadings, rows.begin(),
+                             [](const auto& row) { return row.value != Shading::Reference; });
+        return rows;
+    }();
+    object.read_choice("shading", one_draw, shading);
+}
+
 void read_lighting(JsonObject& object, Lighting& light) {
     object.read_text("environment", light.environment);
     if (light.environment.empty())
@@ -80,7 +93,7 @@ void read_lighting(JsonObject& object, Lighting& light) {
         light.camera = Camera{};
         read_camera(std::move(*camera), *light.camera);
     }
-    object.read_choice("shading", kShadings, light.shading);
+    read_shading(object, light.shading);
     if (auto photo = object.object("photo")) light.photo = read_photo(std::move(*photo));
 }
 
@@ -186,7 +199,7 @@ LoadedComparison parse_comparison(std::string_view text, const std::string& name
     root.read_text("author", comparison.author);
     root.read_text("remarks", comparison.remarks);
     root.read_text("mesh", comparison.mesh);
-    root.read_choice("shading", kShadings, comparison.shading);
+    read_shading(root, comparison.shading);
     root.read_choice("quality", kQualities, comparison.quality);
     if (auto camera = root.object("camera")) read_camera(std::move(*camera), comparison.camera);
     for (JsonObject& object : root.objects("rows", kMaxComparisonRows)) {

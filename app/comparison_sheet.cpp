@@ -206,10 +206,6 @@ Scene ComparisonScenes::scene(ViewPlace place) {
     scene.environment = loader_.environment(light.environment);
     scene.view = view_of(comparison_, light);
     scene.camera = camera_of(comparison_, light);
-    if (is_reference(scene.view))
-        throw std::runtime_error(
-            "a comparison's views are drawn at once; the reference is drawn view by view with "
-            "patina render --shading reference");
     return scene;
 }
 

@@ -110,6 +110,10 @@ TEST(ComparisonFile, says_file_line_and_place_of_what_is_wrong) {
     EXPECT_NE(failure(R"({"rows": [3], "columns": [{}]})").find("/rows/0 is a number"), std::string::npos);
     EXPECT_NE(failure(R"({"rows": [{}]})").find("no columns"), std::string::npos);
     EXPECT_NE(failure("{}").find("nothing to compare"), std::string::npos);
+    for (const char* reference : {R"({"shading": "reference", "rows": [{}], "columns": [{}]})",
+                                  R"({"rows": [{}], "columns": [{"shading": "reference"}]})"})
+        EXPECT_NE(failure(reference).find("shading is 'reference'; it must be 'course' or"),
+                  std::string::npos);
     EXPECT_NE(failure("[]").find("must be an object"), std::string::npos);
     EXPECT_NE(failure("{\"rows\": [").find("s.json:1:"), std::string::npos);
     EXPECT_NE(failure(R"({"$schema": "patina-material-1.schema.json", "rows": [{}], "columns": [{}]})")
