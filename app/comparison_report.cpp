@@ -229,8 +229,8 @@ void ComparisonReport::add_errors(Report& report) const {
     section.table = std::move(table);
     section.notes.push_back(
         "The shading against the reflectance integral, as shares of the light on the object. The last column "
-        "is "
-        "how well 95 of 100 pixels of the integral are known, sampled " +
+        "is how "
+        "well 95 of 100 pixels of the integral are known, sampled " +
         formatted("to %.0f %% with at most %d points a pixel", 100.0 * kReferenceKnown,
                   reference_->samples()) +
         ". Where that is worse than the error, the error is mostly the samples' noise and stands as a bound "

@@ -16,11 +16,13 @@
 
 namespace patina {
 
+inline constexpr int kReportPx = 640;
+
 struct ComparisonReportOptions {
     std::filesystem::path file;    ///< the comparison's; empty: never saved
     std::filesystem::path output;  ///< of the report; its ending chooses the format
     std::string renderer;          ///< the GL renderer and version that drew it
-    int picture_px = 640;          ///< side of a picture
+    int picture_px = kReportPx;    ///< side of a picture
     bool hints = true;             ///< compute what would bring the renders closer to the photos
     int reference_samples = 0;     ///< a pixel; 0: the renders are not held against the reference
 };

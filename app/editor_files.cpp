@@ -51,12 +51,12 @@ std::optional<ui::Unsaved> next_loss(const Editor& editor, ui::Unsaved first) {
 }
 
 /// Asks about what would be lost, or does what waits.
-void go_on(Editor& editor, ui::Unsaved first, const std::string& action) {
+void go_on(Editor& editor, ui::Unsaved first) {
     const std::optional<ui::Unsaved> loss = next_loss(editor, first);
     if (!loss) return carry_out_waiting(editor);
     const bool material = *loss == ui::Unsaved::Material;
     editor.unsaved = {.title = material ? document_title(editor.document, editor.file) : sheet_name(editor),
-                      .action = action,
+                      .action = editor.waiting_action,
                       .what = *loss};
     ++editor.changes;
 }
@@ -64,7 +64,7 @@ void go_on(Editor& editor, ui::Unsaved first, const std::string& action) {
 void ask(Editor& editor, ui::Request request, const std::string& action) {
     editor.waiting = std::move(request);
     editor.waiting_action = action;
-    go_on(editor, ui::Unsaved::Material, action);
+    go_on(editor, ui::Unsaved::Material);
 }
 
 /// Presets that ship are the program's, not the artist's: saving one asks for another place.
@@ -101,7 +101,7 @@ void carry_on(Editor& editor) {
     const bool material = !editor.unsaved || editor.unsaved->what == ui::Unsaved::Material;
     editor.unsaved.reset();
     if (material)
-        go_on(editor, ui::Unsaved::Comparison, editor.waiting_action);
+        go_on(editor, ui::Unsaved::Comparison);
     else
         carry_out_waiting(editor);
 }
@@ -115,7 +115,10 @@ void answer_unsaved(Editor& editor, ui::request::Choice choice) {
     if (choice == ui::request::Choice::Cancel) return editor.waiting.reset();
     // Carries on once it has succeeded, perhaps after a name was chosen.
     const bool material = asked.what == ui::Unsaved::Material;
-    material ? save(editor) : save_sheet(editor);
+    if (material)
+        save(editor);
+    else
+        save_sheet(editor);
     const bool still = material ? is_dirty(editor.document, editor.file) : sheet_unsaved(editor);
     if (!editor.browser.open && still && !editor.unsaved) editor.waiting.reset();
 }

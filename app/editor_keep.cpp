@@ -52,8 +52,11 @@ void bring_recovery_file_up_to_date(Editor& editor) {
 
 Recovery recovery_of(const Editor& editor) {
     Recovery recovery{editor.document, editor.file.path, {}, std::time(nullptr)};
-    recovery.document.sheet = unsaved_sheet(editor);
-    if (recovery.document.sheet) recovery.sheet_file = sheet_file(editor).path;
+    recovery.document.sheet.reset();
+    if (sheet_unsaved(editor)) {
+        recovery.document.sheet = current_sheet(editor);
+        recovery.sheet_file = sheet_file(editor).path;
+    }
     return recovery;
 }
 

@@ -94,7 +94,6 @@ ReportDrawing::ReportDrawing(Editor& editor, Comparison shown, const fs::path& t
              {.file = sheet_file(editor).path,
               .output = to,
               .renderer = editor.status.renderer,
-              .picture_px = kReportPx,
               .reference_samples = editor.ui.report_reference ? kReferenceSamples : 0}) {
     give_what_is_shown(editor, *this);
 }

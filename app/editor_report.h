@@ -14,7 +14,7 @@ namespace patina {
 
 struct Editor;
 
-/// A report under way.
+/// Its views, once all that they show is there.
 struct ReportDrawing {
     ReportDrawing(Editor& editor, Comparison shown, const std::filesystem::path& to);
     ~ReportDrawing() = default;
@@ -26,12 +26,12 @@ struct ReportDrawing {
     ComparisonScenes scenes;
     ComparisonReport report;
 };
+/// A report under way.
 struct ReportWork {
     std::filesystem::path output;
     std::unique_ptr<ReportDrawing> drawing;  ///< null: waits for what the views need
     int shown_percent = 0;
 };
-inline constexpr int kReportPx = 640;  ///< a picture's side; maps are loaded for that, too
 
 /// Of the sheet that is shown, as UiState::report_reference says.
 void export_report(Editor& editor, const std::string& file);

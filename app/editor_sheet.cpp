@@ -222,17 +222,17 @@ void set_mesh(Editor& editor, const std::string& mesh) {
     (editor.document.sheet ? editor.document.sheet->mesh : editor.document.mesh) = mesh;
 }
 
-std::optional<Comparison> unsaved_sheet(const Editor& editor) {
-    const std::optional<Comparison>& sheet =
-        editor.document.sheet ? editor.document.sheet : editor.sheet.put_away;
-    return sheet != sheet_file(editor).saved ? sheet : std::nullopt;
+const std::optional<Comparison>& current_sheet(const Editor& editor) {
+    return editor.document.sheet ? editor.document.sheet : editor.sheet.put_away;
 }
 
-bool sheet_unsaved(const Editor& editor) { return unsaved_sheet(editor).has_value(); }
+bool sheet_unsaved(const Editor& editor) {
+    const std::optional<Comparison>& sheet = current_sheet(editor);
+    return sheet && sheet != sheet_file(editor).saved;
+}
 
 std::string sheet_name(const Editor& editor) {
-    const std::optional<Comparison>& sheet =
-        editor.document.sheet ? editor.document.sheet : editor.sheet.put_away;
+    const std::optional<Comparison>& sheet = current_sheet(editor);
     if (sheet && !sheet->title.empty()) return sheet->title;
     const fs::path& file = sheet_file(editor).path;
     return file.empty() ? "Comparison" : path_to_utf8(file.stem());

@@ -64,10 +64,10 @@ bool save_sheet_as(Editor& editor, const std::string& file);
 bool set_sheet_preset(Editor& editor, const std::string& file);
 void set_light(Editor& editor, const std::string& environment);
 void set_mesh(Editor& editor, const std::string& mesh);
+/// That is shown or put away.
+const std::optional<Comparison>& current_sheet(const Editor& editor);
 /// Something of it would be lost; a new sheet that nobody has changed is not.
 bool sheet_unsaved(const Editor& editor);
-/// The sheet that is shown or put away, if it is unsaved.
-std::optional<Comparison> unsaved_sheet(const Editor& editor);
 /// Its title, or its file's name.
 std::string sheet_name(const Editor& editor);
 /// A sheet that a crash left unsaved.

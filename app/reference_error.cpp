@@ -3,8 +3,6 @@
 #include "renderer/core/flip.h"
 #include "renderer/reference.h"
 
-#include <algorithm>
-
 namespace patina {
 
 namespace {
@@ -32,14 +30,7 @@ bool ReferenceSearch::step() {
     return !reference_->progress().done;
 }
 
-/// The half-width shrinks with the root of the number of points.
-float ReferenceSearch::done() const {
-    const ReferenceProgress& progress = reference_->progress();
-    const double drawn = double(progress.samples) / double(samples_);
-    if (!progress.confidence || progress.confidence->p95 <= 0.0) return float(drawn);
-    const double known = kReferenceKnown / progress.confidence->p95;
-    return float(std::clamp(std::max(drawn, known * known), 0.0, 1.0));
-}
+float ReferenceSearch::done() const { return reference_->share_done(); }
 
 ReferencePictures ReferenceSearch::result() {
     const TargetHandle gathered = renderer_.make_target(kSize, 1, TargetPrecision::Full);

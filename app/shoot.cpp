@@ -1,6 +1,7 @@
 #include "app/shoot.h"
 
 #include "materials/text_io.h"
+#include "renderer/core/finite.h"
 #include "renderer/core/format.h"
 #include "renderer/core/image_io.h"
 
@@ -17,11 +18,9 @@ constexpr float kPaper = 0.5f;  ///< display value where a photo does not reach
 int pixels_without_value(const Image& image) {
     int count = 0;
     for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) {
-            bool finite = true;
-            for (int c = 0; c < 3; ++c) finite = finite && std::isfinite(texel(image, x, y, c));
-            count += finite ? 0 : 1;
-        }
+        for (int x = 0; x < image.width; ++x)
+            if (!is_finite(glm::vec3(texel(image, x, y, 0), texel(image, x, y, 1), texel(image, x, y, 2))))
+                ++count;
     return count;
 }
 

@@ -33,7 +33,6 @@ struct PhotoShot {
     Image heat;       ///< ΔE2000 as a picture, white at kHeatWhite
     Image luminance;  ///< luminance_picture, up to kLuminanceWhite
     Residual residual;
-    std::vector<std::string> hints;  ///< one sentence each, from computed trials
 };
 
 /// The photo held against a view's linear radiance.

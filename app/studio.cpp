@@ -25,14 +25,6 @@ std::string confidence_text(const ReferenceProgress& progress, double wanted) {
     return text;
 }
 
-/// The half-width falls about as the square root of the points.
-float share_done(const ReferenceProgress& progress, int samples, double wanted) {
-    const double of_points = double(progress.samples) / samples;
-    if (wanted <= 0.0 || !progress.confidence) return float(of_points);
-    const double missing = std::max(progress.confidence->p95 / wanted, 1.0);
-    return float(std::max(of_points, 1.0 / (missing * missing)));
-}
-
 }  // namespace
 
 Studio::Studio(const Registry& registry, const SceneOptions& options)
@@ -60,7 +52,7 @@ TargetHandle Studio::draw_reference(const Scene& scene, glm::ivec2 size_px) {
     reference.restart(scene);
     while (!reference.progress().done) {
         reference.draw();
-        progress.show("sampling the reference", share_done(reference.progress(), samples_, error_));
+        progress.show("sampling the reference", reference.share_done());
     }
     progress.clear();
     if (reference.progress().confidence) say(confidence_text(reference.progress(), error_));

@@ -194,6 +194,14 @@ void Reference::restart(const Scene& scene, std::shared_ptr<const LightSampler> 
 
 glm::ivec2 Reference::size_px() const { return state_->target.size; }
 const ReferenceProgress& Reference::progress() const { return state_->progress; }
+float Reference::share_done() const {
+    const ReferenceProgress& progress = state_->progress;
+    const double tolerance = state_->options.tolerance;
+    const double of_points = double(progress.samples) / state_->options.max_samples;
+    if (tolerance <= 0.0 || !progress.confidence) return float(of_points);
+    const double missing = std::max(progress.confidence->p95 / tolerance, 1.0);
+    return float(std::max(of_points, 1.0 / (missing * missing)));
+}
 
 void Reference::draw() {
     State& state = *state_;

@@ -54,6 +54,9 @@ public:
     void restart(const Scene& scene, std::shared_ptr<const LightSampler> light = {});
     glm::ivec2 size_px() const;
     const ReferenceProgress& progress() const;
+    /// How much of the way to the nearer of its two ends is done, 0…1, as far as can be told: the half-width
+    /// falls about as the square root of the points.
+    float share_done() const;
 
     /// One slice; nothing once it is done.
     void draw();

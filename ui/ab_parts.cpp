@@ -84,6 +84,12 @@ void draw_ramp_legend(PanelContext& context, const RampLegend& legend, float x0,
     record_rect(context, legend.name, {x0, y0, x0 + width, y1});
 }
 
+glm::vec3 diverging_color(float t) {
+    glm::vec3 c;
+    diverging(2.0 * double(t) - 1.0, &c.x);
+    return c;
+}
+
 RampLegend legend_of(DifferenceKind kind) {
     const auto light = [](float t) {
         glm::vec3 c;
@@ -93,11 +99,7 @@ RampLegend legend_of(DifferenceKind kind) {
     switch (kind) {
         case DifferenceKind::Signed:
             return {"viewport.legend.signed", formatted("darker by %.2f", kSignedWhite),
-                    formatted("brighter by %.2f", kSignedWhite), [](float t) {
-                        glm::vec3 c;
-                        diverging(2.0 * double(t) - 1.0, &c.x);
-                        return c;
-                    }};
+                    formatted("brighter by %.2f", kSignedWhite), diverging_color};
         case DifferenceKind::Relative:
             return {"viewport.legend.error", "error 0", formatted("≥ %.1f %%", 100.0 * kErrorWhite), light};
         case DifferenceKind::Flip:

@@ -36,6 +36,8 @@ struct RampLegend {
     std::function<glm::vec3(float t)> color;  ///< sRGB code values 0…1 at 0…1
 };
 void draw_ramp_legend(PanelContext& context, const RampLegend& legend, float x0, float y1);
+/// From darker to brighter; sRGB code values at 0…1.
+glm::vec3 diverging_color(float t);
 /// The ramps of a map of differences.
 RampLegend legend_of(DifferenceKind kind);
 

@@ -1,7 +1,6 @@
 #include "ui/photo_overlay.h"
 
 #include "renderer/core/format.h"
-#include "renderer/core/metrics.h"
 #include "renderer/core/photo.h"
 #include "ui/ab_parts.h"
 #include "ui/icons.h"
@@ -183,11 +182,6 @@ TextureId difference_of(const SheetCell& cell, PhotoLayer layer) {
 void draw_layer_legend(PanelContext& context, const Rect& rect) {
     if (rect.width() < px(320)) return;
     const bool heat = context.ui.photo_layer == PhotoLayer::DeltaE;
-    const auto diverging_color = [](float t) {
-        glm::vec3 c;
-        diverging(2.0 * double(t) - 1.0, &c.x);
-        return c;
-    };
     const RampLegend legend =
         heat ? RampLegend{"sheet.legend.delta_e", "ΔE 0", formatted("≥ %.0f", double(kHeatWhite)), heat_color}
              : RampLegend{"sheet.legend.luminance", "render darker", "brighter than the photo",
@@ -214,14 +208,15 @@ void draw_photo(PanelContext& context, int view, const Rect& rect) {
     }
     const float split = rect.x0 + ui.photo_wipe * rect.width();
     draw->PushClipRect({split, rect.y0}, {rect.x1, rect.y1}, true);
-    if (const TextureId difference = difference_of(cell, ui.photo_layer))
+    const TextureId difference = difference_of(cell, ui.photo_layer);
+    if (difference)
         add_image(difference, rect, 1.0f);
     else if (cell.photo)
         add_image(cell.photo, rect, photo->opacity);
     draw->PopClipRect();
     if (ui.photo_wipe > 0.0f && ui.photo_wipe < 1.0f)
         draw->AddLine({split, rect.y0}, {split, rect.y1}, color::kAccent, px(1.5f));
-    if (difference_of(cell, ui.photo_layer)) draw_layer_legend(context, rect);
+    if (difference) draw_layer_legend(context, rect);
     if (photo->region) {
         const Rect square = square_of(rect);
         draw->AddRect(point_in(square, {photo->region->x0, photo->region->y0}),

@@ -1,5 +1,6 @@
 #include "renderer/core/mesh_soup.h"
 
+#include "renderer/core/finite.h"
 #include "renderer/core/mesh_normals.h"
 #include "renderer/core/mesh_triangulate.h"
 #include "renderer/core/mesh_weld.h"
@@ -15,9 +16,6 @@ namespace patina {
 namespace {
 
 constexpr std::size_t kMaxTriangles = 300'000'000;  // corners are numbered with 32 bits
-
-bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-bool is_finite(const glm::vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
 
 /// "3 faces", "1 face".
 std::string counted(std::size_t n, const char* one, const char* many) {

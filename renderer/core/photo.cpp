@@ -1,6 +1,7 @@
 #include "renderer/core/photo.h"
 
 #include "renderer/core/color_difference.h"
+#include "renderer/core/finite.h"
 #include "renderer/core/format.h"
 #include "renderer/core/homography.h"
 #include "renderer/core/metrics.h"
@@ -25,10 +26,6 @@ constexpr float kClipped = 0.995f;
 
 glm::vec3 color_at(const Image& image, int x, int y) {
     return {texel(image, x, y, 0), texel(image, x, y, 1), texel(image, x, y, 2)};
-}
-
-bool is_finite(glm::vec3 color) {
-    return std::isfinite(color.x) && std::isfinite(color.y) && std::isfinite(color.z);
 }
 
 /// The pixels that a region holds, within the picture.

@@ -333,11 +333,7 @@ expect item sheet.view.2
 )"));
 }
 
-TEST(EditorMaps, are_made_from_a_photo_worn_and_undone) {
-    const Folder home;
-    start_small(home, 780, 360);
-    write_wall(home / "wall.png");
-    EXPECT_DRIVEN(drive(home, R"(
+const std::string kChoosesTheWall = R"(
 wait idle
 click inspector.maps
 click maps.choose
@@ -345,6 +341,13 @@ wait until item browser.entry.wall.png
 click browser.entry.wall.png
 click browser.confirm
 wait idle
+)";
+
+TEST(EditorMaps, are_made_from_a_photo_worn_and_undone) {
+    const Folder home;
+    start_small(home, 780, 360);
+    write_wall(home / "wall.png");
+    EXPECT_DRIVEN(drive(home, kChoosesTheWall + R"(
 expect item maps.preview.albedo
 drag maps.corner.1 12 8
 wait idle
@@ -389,14 +392,7 @@ TEST(EditorMaps, never_replace_a_file_nor_a_slot_that_was_left_out) {
     write_picture(home / "wall_albedo.png", 1, 2, 3);
     write_text(home / "mine.json", R"({"name": "Mine"})");
     const std::string before = read_text(home / "wall_albedo.png");
-    EXPECT_DRIVEN(drive(home, R"(
-wait idle
-click inspector.maps
-click maps.choose
-wait until item browser.entry.wall.png
-click browser.entry.wall.png
-click browser.confirm
-wait idle
+    EXPECT_DRIVEN(drive(home, kChoosesTheWall + R"(
 click maps.size.512
 click maps.use.normal
 wait idle
