@@ -73,6 +73,7 @@ gl::SurfacePrograms Renderer::State::surface_programs(int samples, Features maps
     };
     return {.fragments = sorting(stored.fragments[samples], {"FRAGMENTS"}),
             .sorted = sorting(stored.sort[{samples, maps}], stored_defines(maps)),
+            .rays = sorting(stored.rays[samples], {"RAYS"}),
             .nothing = nothing.name()};
 }
 
@@ -99,7 +100,7 @@ std::shared_ptr<const GpuSurfaces> Renderer::State::surfaces_for(const Scene& sc
         (gl::is_software() &&
          gl::SurfaceScratch::bytes_for(target.size, target.samples, kind_of(maps)) <= kSmallScratchBytes);
     if (!at_once && !kept_surfaces.was_drawn(key)) return {};
-    auto made = rasterised(scene, target, maps);
+    auto made = rasterised(scene, target, maps, kept_surfaces.take_old(key));
     kept_surfaces.keep(key, made);
     // One view's camera stood still for this; a sheet's is likely to move on.
     scratch_idle = 0;
@@ -118,13 +119,15 @@ void Renderer::State::rasterise(const Scene& scene, const blocks::FrameBlock& fr
     draw_counted_mesh(scene);
 }
 
-std::shared_ptr<const GpuSurfaces> Renderer::State::rasterised(const Scene& scene, const RenderTarget& target,
-                                                               Features maps) {
+std::shared_ptr<GpuSurfaces> Renderer::State::rasterised(const Scene& scene, const RenderTarget& target,
+                                                         Features maps,
+                                                         const std::shared_ptr<GpuSurfaces>& old) {
     if (!scratch.fits(target.size, target.samples, kind_of(maps)))
         scratch.make(target.size, target.samples, kind_of(maps));
     set_switches();
     scratch.begin();
     rasterise(scene, make_frame_block(scene.camera, scene.view, target.size, {}, 0.0f), maps);
+    scratch.begin_rays();
     if (!stored.behind) stored.behind = compiled("background.vert.glsl", "surfaces_behind.frag.glsl", {});
     glDepthMask(GL_FALSE);
     glUseProgram(stored.behind.name());
@@ -132,7 +135,8 @@ std::shared_ptr<const GpuSurfaces> Renderer::State::rasterised(const Scene& scen
     glDrawArrays(GL_TRIANGLES, 0, 3);
     ++work.surfaces_rasterised;
     count_draw(3, 3);
-    return std::make_shared<GpuSurfaces>(scratch.finish(surface_programs(target.samples, maps)));
+    return std::make_shared<GpuSurfaces>(
+        scratch.finish(surface_programs(target.samples, maps), old ? std::move(*old) : GpuSurfaces{}));
 }
 
 void Renderer::State::shade_stored(const Scene& scene, const GpuEnvironment& environment,
