@@ -285,11 +285,11 @@ Json bench_maps(BenchStage& stage, const BenchContext& context) {
 
 // --- another environment, until the picture under it is there ---
 
-/// Milliseconds of one visit to an environment.
+/// Milliseconds of one visit to an environment, from a picture under another one.
 struct Visit {
     double light = 0.0;  ///< until its light is on the GPU
     double seen = 0.0;   ///< until the picture under it is drawn and read back
-    double drawn = 0.0;  ///< of that, drawing: the same picture once more, with the light there
+    double drawn = 0.0;  ///< of that, drawing: the same change once more, with both lights there
 };
 
 /// Of many visits.
@@ -305,40 +305,48 @@ struct SwitchRun {
     std::vector<double> decode;
 };
 
-Visit visit_environment(BenchStage& stage, SceneLoader& loader, Scene scene, const std::string& environment) {
+Visit visit_environment(BenchStage& stage, SceneLoader& loader, const Scene& before,
+                        const std::string& environment) {
     const TargetHandle target = stage.renderer.make_target(glm::ivec2(kSidePx));
-    const auto draw = [&] {
-        stage.renderer.draw(scene, *target);
+    const auto draw = [&](const Scene& scene) {
+        stage.renderer.draw(scene, *target, Reuse::IfRepeated);
         stage.renderer.read_display(*target);
     };
+    Scene scene = before;
     Visit visit;
+    draw(before);
     visit.seen = milliseconds([&] {
         visit.light = milliseconds(
             [&] { scene.environment = loader.environment(environment, loader.needed_light(scene)); });
-        draw();
+        draw(scene);
     });
-    visit.drawn = milliseconds(draw);
+    draw(before);
+    visit.drawn = milliseconds([&] { draw(scene); });
     return visit;
 }
 
 SwitchRun run_switch(BenchStage& stage, const BenchContext& context, const std::string& environment) {
     SwitchRun run;
+    const EnvironmentHandle before = stage.loader(context.registry).environment("furnace");
     for (int i = 0; i < context.repetitions(); ++i) {
         run.decode.push_back(milliseconds([&] { load_environment(context.registry, environment); }));
         for (const int which : {i % 2, 1 - i % 2}) {
             const TemporaryFolder cache("patina-skip");
+            stage.renderer.set_reuse(which == 0);
             auto& visits = run.visits[std::size_t(which)];
             for (const std::size_t from : {0u, 1u}) {  // nowhere, disk
                 SceneLoader loader(stage.renderer, context.registry,
                                    {.parallel_for = stage.jobs.parallel_for(),
                                     .cache = {.folder = cache.path()},
                                     .skip = which == 0});
-                const Scene scene = loader.scene("plastic-glossy-red", SceneOptions{});
+                Scene scene = loader.scene("plastic-glossy-red", SceneOptions{});
+                scene.environment = before;
                 visits[from].push_back(visit_environment(stage, loader, scene, environment));
                 if (from == 1) visits[2].push_back(visit_environment(stage, loader, scene, environment));
             }
         }
     }
+    stage.renderer.set_reuse(true);
     return run;
 }
 

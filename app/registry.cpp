@@ -4,7 +4,6 @@
 #include "app/paths.h"
 #include "materials/text_io.h"
 #include "renderer/core/environment_io.h"
-#include "renderer/core/file_io.h"
 #include "renderer/core/mesh_io.h"
 #include "ui/workspace.h"
 
@@ -60,7 +59,8 @@ EnvironmentSource blender_environment_source() {
                     environment.id = id;
                     return environment;
                 },
-            .fingerprint = [find](const std::string& id) { return file_hash(find(id).value().file); }};
+            .fingerprint =
+                [find](const std::string& id) { return environment_file_hash(find(id).value().file); }};
 }
 
 EnvironmentSource bake_environment_source() {
@@ -78,7 +78,7 @@ EnvironmentSource file_environment_source() {
             .list = [] { return std::vector<EnvironmentItem>{}; },
             .accepts = [](const std::string& id) { return id.find_first_of("./\\") != std::string::npos; },
             .load = [](const std::string& id) { return load_environment_file(utf8_to_path(id)); },
-            .fingerprint = [](const std::string& id) { return file_hash(utf8_to_path(id)); }};
+            .fingerprint = [](const std::string& id) { return environment_file_hash(utf8_to_path(id)); }};
 }
 
 std::string extension_of(const fs::path& file) {

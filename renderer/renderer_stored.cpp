@@ -4,6 +4,9 @@
 #include "renderer/gl/texture.h"
 #include "renderer/renderer_state.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace patina {
 
 namespace {
@@ -22,6 +25,19 @@ Material with_plain_values(const Material& material) {
 
 std::vector<std::string> with_samples(std::vector<std::string> defines, int samples) {
     if (samples > 1) defines.push_back("SAMPLES=" + std::to_string(samples));
+    return defines;
+}
+
+/// Of the maps, those that are one picture with the roughness map: it is looked up once for all.
+std::vector<std::string> packed_defines(const Scene& scene, Features maps) {
+    std::vector<std::string> defines;
+    const auto is_packed = [&](MapSlot slot) {
+        const auto reads = [&](MapSlot each) { return (maps >> Features(each) & 1u) != 0; };
+        return reads(slot) && reads(MapSlot::Roughness) &&
+               scene.maps[std::size_t(slot)] == scene.maps[std::size_t(MapSlot::Roughness)];
+    };
+    if (is_packed(MapSlot::Metallic)) defines.emplace_back("METALLIC_WITH_ROUGHNESS");
+    if (is_packed(MapSlot::Ao)) defines.emplace_back("AO_WITH_ROUGHNESS");
     return defines;
 }
 
@@ -113,8 +129,12 @@ void Renderer::State::rasterise(const Scene& scene, const blocks::FrameBlock& fr
     upload_block(material_rows, gl::kMaterialSlot,
                  make_material_block(with_plain_values(scene.material), maps, 1.0f));
     bind_maps(scene);
-    gl::Program& program = stored.rasterise[maps];
-    if (!program) program = compiled("mesh.vert.glsl", "surfaces.frag.glsl", stored_defines(maps));
+    std::vector<std::string> defines = packed_defines(scene, maps);
+    gl::Program& program = stored.rasterise[{maps, defines}];
+    if (!program) {
+        std::ranges::copy(stored_defines(maps), std::back_inserter(defines));
+        program = compiled("mesh.vert.glsl", "surfaces.frag.glsl", defines);
+    }
     glUseProgram(program.name());
     draw_counted_mesh(scene);
 }

@@ -1,7 +1,5 @@
 #include "renderer/core/file_io.h"
 
-#include "renderer/core/hash.h"
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -127,23 +125,6 @@ std::vector<std::byte> read_file(const fs::path& file, std::uint64_t max_bytes) 
     if (std::ferror(stream.get()))
         fail(file, "could not be read to its end (" + reason(errno) + "); check the disk");
     return bytes;
-}
-
-std::optional<std::uint64_t> file_hash(const fs::path& file) {
-    constexpr std::size_t portion = std::size_t{1} << 20;
-    std::error_code error;
-    if (!fs::is_regular_file(file, error)) return std::nullopt;
-    const Stream stream = open_stream(file, "rb");
-    if (!stream) return std::nullopt;
-    std::setvbuf(stream.get(), nullptr, _IONBF, 0);
-    std::vector<std::byte> bytes(portion);
-    std::uint64_t hash = 0;
-    std::size_t count = portion;
-    while (count == portion) {
-        count = std::fread(bytes.data(), 1, portion, stream.get());
-        hash = hash_bytes(std::span(bytes).first(count), hash);
-    }
-    return std::ferror(stream.get()) ? std::nullopt : std::optional(hash);
 }
 
 void write_file(const fs::path& file, std::span<const std::byte> bytes) {

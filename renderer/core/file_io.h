@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,9 +17,6 @@ std::string path_text(const std::filesystem::path& file);
 /// a folder, not permitted, unreadable.
 std::vector<std::byte> read_file(const std::filesystem::path& file,
                                  std::uint64_t max_bytes = ~std::uint64_t{0});
-
-/// Of a regular file's bytes, by hash_bytes, however large it is; nullopt where it cannot be read.
-std::optional<std::uint64_t> file_hash(const std::filesystem::path& file);
 
 /// Writes to a temporary file in the same folder, flushes it to the disk and renames it over file: a reader
 /// sees the old or the new contents, never a part. Symbolic links are followed. Throws std::runtime_error

@@ -114,7 +114,9 @@ Sorted sorted(const std::vector<float>& fragments, glm::ivec2 size, int samples)
             const float* const ids = &fragments[4 * pixel];
             std::array<std::uint32_t, 4> numbers{};
             bool is_one = true;
-            for (int i = 0; i < samples; ++i) {
+            const int different =
+                std::all_of(ids + 1, ids + samples, [&](float id) { return id == ids[0]; }) ? 1 : samples;
+            for (int i = 0; i < different; ++i) {
                 const int same = int(std::find(ids, ids + i, ids[i]) - ids);
                 if (same < i) {
                     numbers[std::size_t(i)] = numbers[std::size_t(same)];
@@ -234,12 +236,15 @@ void SurfaceScratch::share_depth() const {
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.name());
 }
 
-std::vector<float> SurfaceScratch::read_fragments(const SurfacePrograms& programs) const {
-    const Texture four = make_texture(GL_RGBA32F, size_px_, {GL_RGBA, GL_FLOAT}, nullptr);
-    const Framebuffer framebuffer = Framebuffer::make();
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-    attach(0, GL_TEXTURE_2D, four);
-    require_complete(size_px_);
+std::vector<float> SurfaceScratch::read_fragments(const SurfacePrograms& programs) {
+    if (!ids_) {
+        ids_ = make_texture(GL_RGBA32F, size_px_, {GL_RGBA, GL_FLOAT}, nullptr);
+        ids_framebuffer_ = Framebuffer::make();
+        glBindFramebuffer(GL_FRAMEBUFFER, ids_framebuffer_.name());
+        attach(0, GL_TEXTURE_2D, ids_);
+        require_complete(size_px_);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, ids_framebuffer_.name());
     bind_texture(kPictureUnit, kind(), fragments_);
     draw_all(programs.fragments, programs.nothing, {0, 0, size_px_});
     const KeepReadState pack;
@@ -270,7 +275,7 @@ void SurfaceScratch::draw_sorted(const GpuSurfaces& surfaces, const SurfaceProgr
     shade_rows(surfaces, StoredRows::Behind, programs.rays, programs.nothing);
 }
 
-GpuSurfaces SurfaceScratch::finish(const SurfacePrograms& programs, GpuSurfaces old) const {
+GpuSurfaces SurfaceScratch::finish(const SurfacePrograms& programs, GpuSurfaces old) {
     const KeepTextureBindings keep;
     Sorted fragments = sorted(read_fragments(programs), size_px_, samples_);
     if (fragments.rows > most_rows())

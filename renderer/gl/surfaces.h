@@ -58,10 +58,10 @@ public:
     /// Its depth becomes that of the framebuffer that is bound, which has the same size and samples.
     void share_depth() const;
     /// Sorts what was drawn. old: one that nobody needs any more, whose room is used again where it fits.
-    GpuSurfaces finish(const SurfacePrograms& programs, GpuSurfaces old) const;
+    GpuSurfaces finish(const SurfacePrograms& programs, GpuSurfaces old);
 
 private:
-    std::vector<float> read_fragments(const SurfacePrograms& programs) const;
+    std::vector<float> read_fragments(const SurfacePrograms& programs);
     void draw_sorted(const GpuSurfaces& surfaces, const SurfacePrograms& programs) const;
     GLenum kind() const { return samples_ > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D; }
 
@@ -69,6 +69,8 @@ private:
     int samples_ = 0;
     SurfaceMaps maps_ = SurfaceMaps::None;
     Texture fragments_;  ///< of which triangle
+    Texture ids_;        ///< the same, four samples a texel
+    Framebuffer ids_framebuffer_;
     std::array<Texture, 6> layers_;
     Renderbuffer depth_;
     Framebuffer framebuffer_;
