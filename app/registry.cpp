@@ -32,7 +32,8 @@ EnvironmentSource builtin_environment_source() {
                     return items;
                 },
             .accepts = [find](const std::string& id) { return find(id) != builtin_environments().end(); },
-            .load = [find](const std::string& id) { return find(id)->make(kBuiltinEnvironmentWidth); }};
+            .load = [find](const std::string& id) { return find(id)->make(kBuiltinEnvironmentWidth); },
+            .fingerprint = [](const std::string&) { return std::optional<std::uint64_t>(0); }};
 }
 
 EnvironmentSource blender_environment_source() {
@@ -57,7 +58,9 @@ EnvironmentSource blender_environment_source() {
                     Environment environment = load_environment_file(find(id).value().file);
                     environment.id = id;
                     return environment;
-                }};
+                },
+            .fingerprint =
+                [find](const std::string& id) { return environment_file_hash(find(id).value().file); }};
 }
 
 EnvironmentSource bake_environment_source() {
@@ -74,7 +77,8 @@ EnvironmentSource file_environment_source() {
             .description = "Equirectangular pictures: Radiance .hdr, OpenEXR .exr, or any other picture",
             .list = [] { return std::vector<EnvironmentItem>{}; },
             .accepts = [](const std::string& id) { return id.find_first_of("./\\") != std::string::npos; },
-            .load = [](const std::string& id) { return load_environment_file(utf8_to_path(id)); }};
+            .load = [](const std::string& id) { return load_environment_file(utf8_to_path(id)); },
+            .fingerprint = [](const std::string& id) { return environment_file_hash(utf8_to_path(id)); }};
 }
 
 std::string extension_of(const fs::path& file) {
@@ -189,6 +193,11 @@ LoadedLight load_light(const Registry& registry, const std::string& id) {
     if (!source.load_baked) return {source.load(id), std::nullopt};
     BakedLight light = source.load_baked(id);
     return {std::move(light.environment), std::move(light.baked)};
+}
+
+std::optional<std::uint64_t> environment_fingerprint(const Registry& registry, const std::string& id) {
+    const EnvironmentSource& source = environment_source(registry, id);
+    return source.fingerprint ? source.fingerprint(id) : std::nullopt;
 }
 
 std::string environment_title(const Registry& registry, const std::string& id) {

@@ -68,14 +68,17 @@ EnvironmentHandle SceneLoader::environment(const std::string& id, const NeededLi
         .parallel_for = options_.parallel_for,
         .progress = [&](float fraction) { options_.progress("baking " + id, fraction); },
         .stop = {}};
-    const LightOrder order{.id = id, .needed = wanted, .held = light.held, .drawn = light.handle};
+    const LightOrder order{
+        .id = id, .needed = wanted, .held = light.held, .drawn = light.handle, .skip = options_.skip};
     const std::optional<ReadyLight> ready =
         get_light(registry_, order, drawing_bake_settings(), options_.cache, control);
     if (!ready) throw std::runtime_error(id + ": the bake was stopped");
     for (const std::string& note : ready->notes) options_.note(id + ": " + note);
     count_light(renderer_.work(), order, *ready);
     light.held = ready->held;
-    return light.handle = Renderer::begin_upload(ready->light).finish();
+    light.handle = Renderer::begin_upload(ready->light).finish();
+    keep_light(registry_, order, *ready, *ready->light, options_.cache);
+    return light.handle;
 }
 
 MeshHandle SceneLoader::mesh(const std::string& id, bool with_tangents) {

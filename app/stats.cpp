@@ -42,7 +42,8 @@ void count_bake(WorkLedger& work, const BakedEnvironment& baked) {
 
 void count_light(WorkLedger& work, const LightOrder& order, const ReadyLight& ready) {
     const bool is_baked = ready.levels_baked > 0 || ready.irradiance_baked;
-    if (!order.held || !order.held->environment) ++work.environments_decoded;
+    work.environments_decoded += ready.decoded ? 1 : 0;
+    work.environments_from_disk += ready.was_kept ? 1 : 0;
     work.bakes_from_disk += ready.from_disk ? 1 : 0;
     work.first_lights += ready.is_first_light ? 1 : 0;
     work.sphere_transforms += is_baked ? 1 : 0;
