@@ -6,6 +6,7 @@
 #include "renderer/core/module_io.h"
 #include "renderer/core/radiance_hdr.h"
 
+#include <cstring>
 #include <exception>
 #include <new>
 #include <stdexcept>
@@ -93,17 +94,72 @@ LoadedImage load_radiance(const fs::path& file, Bytes bytes) {
     return {.image = std::move(picture.image), .notes = std::move(picture.notes)};
 }
 
-LoadedImage load_decoded(const fs::path& file, ImageFormat format, Bytes bytes, int least_side) {
+/// Its shape, without texels.
+Image shape_of(const Image& image) {
+    return {.width = image.width,
+            .height = image.height,
+            .channels = image.channels,
+            .type = image.type,
+            .bytes = {}};
+}
+
+/// Rows put together again.
+struct Collected {
+    Image image;
+    std::size_t at = 0;
+
+    void begin(const Image& shape) {
+        image = make_image(shape.width, shape.height, shape.channels, shape.type);
+    }
+    void add(const std::byte* row) {
+        const std::size_t size = image.bytes.size() / static_cast<std::size_t>(image.height);
+        std::memcpy(image.bytes.data() + at, row, size);
+        at += size;
+    }
+};
+
+const ImageCodec& checked_codec(const fs::path& file, ImageFormat format, Bytes bytes) {
     if (const std::string problem = image_structure_problem(format, bytes); !problem.empty())
         fail(file, problem);
     check_promise(file, format, bytes);
+    return codec_for(format, bytes);
+}
+
+DecodedImage collected(const ImageCodec& codec, const ImageSource& source) {
+    if (codec.decode) return codec.decode(source);
+    DecodedImage decoded;
+    Collected whole;
+    codec.decode_rows(source, {.begin =
+                                   [&](const Image& shape, int orientation) {
+                                       decoded.orientation = orientation;
+                                       whole.begin(shape);
+                                   },
+                               .row = [&](const std::byte* row) { whole.add(row); }});
+    decoded.loaded.image = std::move(whole.image);
+    return decoded;
+}
+
+LoadedImage load_decoded(const fs::path& file, ImageFormat format, Bytes bytes) {
     return named(file, [&] {
         DecodedImage decoded =
-            codec_for(format, bytes)
-                .decode({.file = file, .format = format, .bytes = bytes, .least_side = least_side});
+            collected(checked_codec(file, format, bytes), {.file = file, .format = format, .bytes = bytes});
         decoded.loaded.image = oriented(std::move(decoded.loaded.image), decoded.orientation);
         return std::move(decoded.loaded);
     });
+}
+
+/// Given on as they come where they are stored as they are to be seen, else when all are there.
+void decode_rows(const ImageCodec& codec, const ImageSource& source, const ImageRows& rows) {
+    Collected turned;
+    int turn = 1;
+    codec.decode_rows(source,
+                      {.begin =
+                           [&](const Image& shape, int orientation) {
+                               turn = orientation;
+                               turn == 1 ? rows.begin(shape) : turned.begin(shape);
+                           },
+                       .row = [&](const std::byte* row) { turn == 1 ? rows.row(row) : turned.add(row); }});
+    if (turn != 1) give_rows(oriented(std::move(turned.image), turn), rows);
 }
 
 /// start: the first bytes of the file.
@@ -137,15 +193,39 @@ ImageInfo load_image_info(const fs::path& file) {
             .format = "hdr"};
 }
 
-LoadedImage load_image(const fs::path& file) { return load_image_reduced(file, 0); }
-
-LoadedImage load_image_reduced(const fs::path& file, int least_side) {
+LoadedImage load_image(const fs::path& file) {
     const std::vector<std::byte> bytes = read_file(file);
     const ImageFormat format = known_format(file, bytes);
-    LoadedImage loaded = format == ImageFormat::Hdr ? load_radiance(file, bytes)
-                                                    : load_decoded(file, format, bytes, least_side);
+    LoadedImage loaded =
+        format == ImageFormat::Hdr ? load_radiance(file, bytes) : load_decoded(file, format, bytes);
     note_extension(file, format, loaded.notes);
     return loaded;
+}
+
+void give_rows(const Image& image, const ImageRows& rows) {
+    rows.begin(shape_of(image));
+    const std::size_t size = image.bytes.size() / static_cast<std::size_t>(image.height);
+    for (std::size_t at = 0; at < image.bytes.size(); at += size) rows.row(image.bytes.data() + at);
+}
+
+std::vector<std::string> load_image_rows(const fs::path& file, const ImageRows& rows) {
+    const std::vector<std::byte> bytes = read_file(file);
+    const ImageFormat format = known_format(file, bytes);
+    std::vector<std::string> notes;
+    const bool by_rows = format != ImageFormat::Hdr && named(file, [&] {
+                             const ImageCodec& codec = checked_codec(file, format, bytes);
+                             if (codec.decode_rows)
+                                 decode_rows(codec, {.file = file, .format = format, .bytes = bytes}, rows);
+                             return codec.decode_rows != nullptr;
+                         });
+    if (!by_rows) {
+        LoadedImage loaded =
+            format == ImageFormat::Hdr ? load_radiance(file, bytes) : load_decoded(file, format, bytes);
+        give_rows(loaded.image, rows);
+        notes = std::move(loaded.notes);
+    }
+    note_extension(file, format, notes);
+    return notes;
 }
 
 ImageMetadata load_image_metadata(const fs::path& file) {
