@@ -13,7 +13,8 @@ namespace {
 constexpr int kBuckets = 4096;
 
 /// The sRGB code whose decoded value is nearest in code values, exactly as rounding linear_to_srgb would give
-/// it: a table of the code at the start of each bucket, then the few thresholds inside it.
+/// it: a table of the code at the start of each bucket, of which none is as wide as the step between two
+/// codes (at least 1/(12.92 · 255)), so that one comparison is left.
 class SrgbEncoder {
 public:
     SrgbEncoder() {
@@ -28,9 +29,8 @@ public:
     }
     std::uint8_t operator()(float linear) const {
         const float x = std::clamp(linear, 0.0f, 1.0f);
-        int code = start_[std::min(int(x * kBuckets), kBuckets - 1)];
-        while (threshold_[code + 1] <= x) ++code;
-        return std::uint8_t(code);
+        const int code = start_[std::min(int(x * kBuckets), kBuckets - 1)];
+        return std::uint8_t(code + (threshold_[code + 1] <= x ? 1 : 0));
     }
 
 private:
@@ -70,28 +70,50 @@ T rounded(float x) {
 /// size2: at least as long as what has a direction; the square root of what has none is never shown.
 constexpr float kNoLength2 = 1e-12f;
 
-/// One channel of a row as numbers that may be averaged.
-template <class T, class Decode>
-void decode_plane(const std::byte* row, int channels, int width, const Decode& decode, float* out) {
-    const T* in = reinterpret_cast<const T*>(row);
-    for (int x = 0; x < width; ++x) out[x] = decode(in[std::size_t(x) * channels]);
+/// A row's first channels as planes of numbers that may be averaged. decode(number, channel).
+template <int kPlanes, class T, class Decode>
+void decode_planes(const T* in, int channels, int width, const Decode& decode, float* out) {
+    for (int x = 0; x < width; ++x, in += channels)
+        for (int c = 0; c < kPlanes; ++c) out[c * width + x] = decode(in[c], c);
 }
 
-void decode_plane(const Image& shape, const std::byte* row, int channels, const std::array<float, 256>& table,
-                  float* out) {
-    if (shape.type == PixelType::U8)
-        decode_plane<std::uint8_t>(
-            row, channels, shape.width, [&](std::uint8_t code) { return table[code]; }, out);
+template <class T, class Decode>
+void decode_planes(const std::byte* row, int channels, const Decode& decode, Planes& out, int width) {
+    const T* in = reinterpret_cast<const T*>(row);
+    switch (out.size() / std::size_t(width)) {
+        case 1:
+            return decode_planes<1>(in, channels, width, decode, out.data());
+        case 2:
+            return decode_planes<2>(in, channels, width, decode, out.data());
+        case 3:
+            return decode_planes<3>(in, channels, width, decode, out.data());
+        default:
+            return decode_planes<4>(in, channels, width, decode, out.data());
+    }
+}
+
+void decode_row(const std::byte* row, int channels, const Image& shape, Meaning meaning, Planes& out) {
+    const float* number = byte_tables().number.data();
+    const float* light = byte_tables().light.data();
+    const auto byte_light = [=](std::uint8_t code, int c) { return c < 3 ? light[code] : number[code]; };
+    const auto byte_number = [=](std::uint8_t code, int) { return number[code]; };
+    const auto short_number = [](std::uint16_t code, int) { return float(code) / 65535.0f; };
+    if (shape.type == PixelType::U8 && meaning == Meaning::SrgbLight)
+        decode_planes<std::uint8_t>(row, channels, byte_light, out, shape.width);
+    else if (shape.type == PixelType::U8)
+        decode_planes<std::uint8_t>(row, channels, byte_number, out, shape.width);
     else if (shape.type == PixelType::U16)
-        decode_plane<std::uint16_t>(
-            row, channels, shape.width, [](std::uint16_t code) { return float(code) / 65535.0f; }, out);
+        decode_planes<std::uint16_t>(row, channels, short_number, out, shape.width);
     else
-        decode_plane<float>(
-            row, channels, shape.width, [](float number) { return number; }, out);
+        decode_planes<float>(
+            row, channels, [](float number, int) { return number; }, out, shape.width);
 }
 
 /// In place, from 0…1: unit; (0, 0, 1) for what has no direction.
-void decode_directions(float* nx, float* ny, float* nz, int width) {
+void decode_directions(Planes& row, int width) {
+    float* const nx = row.data();
+    float* const ny = nx + width;
+    float* const nz = ny + width;
     for (int x = 0; x < width; ++x) {
         const float a = 2.0f * nx[x] - 1.0f, b = 2.0f * ny[x] - 1.0f, c = 2.0f * nz[x] - 1.0f;
         const float size2 = a * a + b * b + c * c;
@@ -106,69 +128,58 @@ void decode_directions(float* nx, float* ny, float* nz, int width) {
 /// What an average of unit normals, of that squared length, adds to alpha²: 1/2κ of the von Mises-Fisher lobe
 /// with the same mean, κ = (3R − R³)/(1 − R²) (Banerjee et al. 2005).
 float spread_of(float length2) {
-    const float squared = std::clamp(length2, 0.0f, 1.0f);
+    const float squared = std::min(std::max(length2, 0.0f), 1.0f);
     const float R = std::sqrt(squared);
     return std::min(0.5f * (1.0f - squared) / std::max(R * (3.0f - squared), 1e-3f), 1.0f);
 }
 
-/// The texel's direction coded 0…1, and alpha = 1 − √spread.
-std::array<float, 4> normal_texel(const float* row, int width, int x) {
-    const float a = row[x], b = row[width + x], c = row[2 * width + x];
-    const float size2 = a * a + b * b + c * c;
-    const float alpha = 1.0f - std::sqrt(spread_of(size2));
-    if (!(size2 > kNoLength2)) return {0.5f, 0.5f, 1.0f, alpha};
-    const float size = std::sqrt(size2);
-    return {0.5f * (a / size) + 0.5f, 0.5f * (b / size) + 0.5f, 0.5f * (c / size) + 0.5f, alpha};
-}
-
-/// A texel's channels from planes that may be fewer.
-std::array<float, 4> plain_texel(const float* row, int width, int planes, int x) {
-    const float first = row[x];
-    std::array<float, 4> texel{first, first, first, 1.0f};
-    for (int c = 1; c < planes; ++c) texel[std::size_t(c)] = row[c * width + x];
-    return texel;
+/// Averaged directions as unit ones coded 0…1, and alpha = 1 − √spread.
+void code_directions(const float* row, int width, Planes& out) {
+    out.resize(std::size_t(4) * width);
+    std::copy_n(row, 3 * width, out.begin());
+    float* const nx = out.data();
+    float* const ny = nx + width;
+    float* const nz = ny + width;
+    float* const alpha = nz + width;
+    for (int x = 0; x < width; ++x) {
+        const float a = nx[x], b = ny[x], c = nz[x];
+        const float size2 = a * a + b * b + c * c;
+        const float half = 0.5f / std::sqrt(std::max(size2, kNoLength2));
+        const float ca = half * a + 0.5f, cb = half * b + 0.5f, cc = half * c + 0.5f;
+        nx[x] = size2 > kNoLength2 ? ca : 0.5f;
+        ny[x] = size2 > kNoLength2 ? cb : 0.5f;
+        nz[x] = size2 > kNoLength2 ? cc : 1.0f;
+        alpha[x] = size2;
+    }
+    for (int x = 0; x < width; ++x) alpha[x] = 1.0f - std::sqrt(spread_of(alpha[x]));
 }
 
 template <class T, class Encode>
-void encode_texels(Image& image, int y, const Encode& texel_at) {
-    const int channels = image.channels;
-    T* out = reinterpret_cast<T*>(image.bytes.data()) + std::size_t(y) * image.width * channels;
-    for (int x = 0; x < image.width; ++x, out += channels) {
-        const std::array<float, 4> texel = texel_at(x);
-        for (int c = 0; c < channels; ++c) {
-            if constexpr (std::is_same_v<T, float>)
-                out[c] = texel[std::size_t(c)];
-            else
-                out[c] = rounded<T>(texel[std::size_t(c)]);
-        }
+void encode_channels(const float* row, int planes, Image& image, int y, const Encode& encode) {
+    const int channels = image.channels, width = image.width;
+    T* const out = reinterpret_cast<T*>(image.bytes.data()) + std::size_t(y) * width * channels;
+    for (int c = 0; c < channels; ++c) {
+        const bool is_alpha = c == 3 && planes < 4;
+        const T one = is_alpha ? encode(1.0f, c) : T();
+        const float* plane = row + std::size_t(c < planes ? c : 0) * width;
+        for (int x = 0; x < width; ++x) out[x * channels + c] = is_alpha ? one : encode(plane[x], c);
     }
 }
 
-void encode_light(const float* row, int planes, Image& image, int y) {
-    const SrgbEncoder& encode = srgb_encoder();
-    const int channels = image.channels;
-    auto* out = reinterpret_cast<std::uint8_t*>(image.bytes.data()) + std::size_t(y) * image.width * channels;
-    for (int x = 0; x < image.width; ++x, out += channels) {
-        const std::array<float, 4> texel = plain_texel(row, image.width, planes, x);
-        for (int c = 0; c < channels; ++c)
-            out[c] = c == 3 ? rounded<std::uint8_t>(texel[std::size_t(c)]) : encode(texel[std::size_t(c)]);
-    }
-}
-
-void encode_row(const float* row, int planes, Meaning meaning, Image& image, int y) {
-    if (meaning == Meaning::SrgbLight) return encode_light(row, planes, image, y);
-    const auto encode = [&](const auto& texel_at) {
-        if (image.type == PixelType::U8)
-            encode_texels<std::uint8_t>(image, y, texel_at);
-        else if (image.type == PixelType::U16)
-            encode_texels<std::uint16_t>(image, y, texel_at);
-        else
-            encode_texels<float>(image, y, texel_at);
-    };
-    if (meaning == Meaning::Direction)
-        encode([&](int x) { return normal_texel(row, image.width, x); });
+void encode_row(const float* row, int planes, bool is_light, Image& image, int y) {
+    const SrgbEncoder& light = srgb_encoder();
+    if (image.type == PixelType::U8 && is_light)
+        encode_channels<std::uint8_t>(row, planes, image, y, [&](float number, int c) {
+            return c < 3 ? light(number) : rounded<std::uint8_t>(number);
+        });
+    else if (image.type == PixelType::U8)
+        encode_channels<std::uint8_t>(row, planes, image, y,
+                                      [](float number, int) { return rounded<std::uint8_t>(number); });
+    else if (image.type == PixelType::U16)
+        encode_channels<std::uint16_t>(row, planes, image, y,
+                                       [](float number, int) { return rounded<std::uint16_t>(number); });
     else
-        encode([&](int x) { return plain_texel(row, image.width, planes, x); });
+        encode_channels<float>(row, planes, image, y, [](float number, int) { return number; });
 }
 
 void repeat_first(Planes& planes, std::size_t width) {
@@ -249,25 +260,26 @@ void MipChain::push(const std::byte* row, int channels) {
     const Image& finest = levels_.front();
     const int width = finest.width;
     top_.resize(std::size_t(planes_) * width);
-    for (int c = 0; c < planes_; ++c) {
-        const bool is_light = meaning_ == Meaning::SrgbLight && c < 3;
-        decode_plane(finest, row + std::size_t(c) * bytes_per_channel(finest.type), channels,
-                     is_light ? byte_tables().light : byte_tables().number,
-                     top_.data() + std::size_t(c) * width);
-    }
-    if (meaning_ == Meaning::Direction)
-        decode_directions(top_.data(), top_.data() + width, top_.data() + 2 * width, width);
+    decode_row(row, channels, finest, meaning_, top_);
+    if (meaning_ == Meaning::Direction) decode_directions(top_, width);
     const float* from = top_.data();
     for (std::size_t i = 0; i < filters_.size(); ++i) {
         from = filters_[i].push(from, planes_);
         if (!from) return;
         Image& level = levels_[i + 1];
-        if (!level.empty()) encode_row(from, planes_, meaning_, level, filters_[i].rows_done() - 1);
+        if (level.empty()) continue;
+        const int y = filters_[i].rows_done() - 1;
+        if (meaning_ == Meaning::Direction) {
+            code_directions(from, level.width, coded_);
+            encode_row(coded_.data(), 4, false, level, y);
+        } else {
+            encode_row(from, planes_, meaning_ == Meaning::SrgbLight, level, y);
+        }
     }
 }
 
 std::size_t MipChain::bytes() const {
-    std::size_t floats = top_.capacity();
+    std::size_t floats = top_.capacity() + coded_.capacity();
     for (const LevelFilter& filter : filters_) floats += filter.floats();
     return floats * sizeof(float);
 }

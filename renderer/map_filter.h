@@ -67,7 +67,7 @@ private:
     std::vector<Image>& levels_;
     Meaning meaning_;
     int planes_;
-    Planes top_;
+    Planes top_, coded_;
     std::vector<LevelFilter> filters_;
 };
 
