@@ -66,22 +66,37 @@ FoundMaterial material_of(const std::string& preset, const SceneOptions& options
 SceneLoader::SceneLoader(Renderer& renderer, const Registry& registry, Options options)
     : renderer_(renderer), registry_(registry), options_(std::move(options)) {}
 
+namespace {
+
+/// What it serves, without its texels: they are on the GPU, and in the cache folder.
+std::shared_ptr<const HeldLight> facts_of(const HeldLight& held) {
+    auto facts = std::make_shared<HeldLight>();
+    facts->is_whole = held.is_whole;
+    facts->exact.irradiance.size = held.exact.irradiance.size;
+    for (const PrefilteredLevel& level : held.exact.levels)
+        facts->exact.levels.push_back({.roughness = level.roughness, .cube = {.size = level.cube.size}});
+    return facts;
+}
+
+}  // namespace
+
 EnvironmentHandle SceneLoader::environment(const std::string& id, const NeededLight& needed) {
     Light& light = lights_[id];
-    const NeededLight wanted = options_.skip ? needed : all_light();
+    const NeededLight wanted = options_.skip ? combined(light.needed, needed) : all_light();
     if (light.held && serves(*light.held, wanted)) return light.handle;
+    light.needed = wanted;
     options_.progress("loading " + id, 0.0f);
     const BakeControl control{
         .parallel_for = options_.parallel_for,
         .progress = [&](float fraction) { options_.progress("baking " + id, fraction); },
         .stop = {}};
-    const LightOrder order{.id = id, .needed = wanted, .held = light.held, .drawn = light.handle};
+    const LightOrder order{.id = id, .needed = wanted};
     const std::optional<ReadyLight> ready =
         get_light(registry_, order, drawing_bake_settings(), options_.cache, control);
     if (!ready) throw std::runtime_error(id + ": the bake was stopped");
     for (const std::string& note : ready->notes) options_.note(id + ": " + note);
     count_light(renderer_.work(), order, *ready);
-    light.held = ready->held;
+    light.held = options_.skip ? facts_of(*ready->held) : ready->held;
     return light.handle = Renderer::begin_upload(ready->light).finish();
 }
 

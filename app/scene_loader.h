@@ -56,6 +56,7 @@ public:
 
 private:
     struct Light {
+        NeededLight needed;  ///< by all that asked for it
         std::shared_ptr<const HeldLight> held;
         EnvironmentHandle handle;
     };
