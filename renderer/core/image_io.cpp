@@ -118,11 +118,10 @@ struct Collected {
     }
 };
 
-const ImageCodec& checked_codec(const fs::path& file, ImageFormat format, Bytes bytes) {
+void check_bytes(const fs::path& file, ImageFormat format, Bytes bytes) {
     if (const std::string problem = image_structure_problem(format, bytes); !problem.empty())
         fail(file, problem);
     check_promise(file, format, bytes);
-    return codec_for(format, bytes);
 }
 
 DecodedImage collected(const ImageCodec& codec, const ImageSource& source) {
@@ -140,9 +139,10 @@ DecodedImage collected(const ImageCodec& codec, const ImageSource& source) {
 }
 
 LoadedImage load_decoded(const fs::path& file, ImageFormat format, Bytes bytes) {
+    check_bytes(file, format, bytes);
     return named(file, [&] {
         DecodedImage decoded =
-            collected(checked_codec(file, format, bytes), {.file = file, .format = format, .bytes = bytes});
+            collected(codec_for(format, bytes), {.file = file, .format = format, .bytes = bytes});
         decoded.loaded.image = oriented(std::move(decoded.loaded.image), decoded.orientation);
         return std::move(decoded.loaded);
     });
@@ -212,8 +212,9 @@ std::vector<std::string> load_image_rows(const fs::path& file, const ImageRows& 
     const std::vector<std::byte> bytes = read_file(file);
     const ImageFormat format = known_format(file, bytes);
     std::vector<std::string> notes;
+    if (format != ImageFormat::Hdr) check_bytes(file, format, bytes);
     const bool by_rows = format != ImageFormat::Hdr && named(file, [&] {
-                             const ImageCodec& codec = checked_codec(file, format, bytes);
+                             const ImageCodec& codec = codec_for(format, bytes);
                              if (codec.decode_rows)
                                  decode_rows(codec, {.file = file, .format = format, .bytes = bytes}, rows);
                              return codec.decode_rows != nullptr;
