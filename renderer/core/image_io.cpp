@@ -128,12 +128,11 @@ DecodedImage collected(const ImageCodec& codec, const ImageSource& source) {
     if (codec.decode) return codec.decode(source);
     DecodedImage decoded;
     Collected whole;
-    codec.decode_rows(source, {.begin =
-                                   [&](const Image& shape, int orientation) {
-                                       decoded.orientation = orientation;
-                                       whole.begin(shape);
-                                   },
-                               .row = [&](const std::byte* row) { whole.add(row); }});
+    const auto begin = [&](const Image& shape, int orientation) {
+        decoded.orientation = orientation;
+        whole.begin(shape);
+    };
+    codec.decode_rows(source, {.begin = begin, .row = [&](const std::byte* row) { whole.add(row); }});
     decoded.loaded.image = std::move(whole.image);
     return decoded;
 }
@@ -148,18 +147,33 @@ LoadedImage load_decoded(const fs::path& file, ImageFormat format, Bytes bytes) 
     });
 }
 
+LoadedImage load_bytes(const fs::path& file, ImageFormat format, Bytes bytes) {
+    return format == ImageFormat::Hdr ? load_radiance(file, bytes) : load_decoded(file, format, bytes);
+}
+
 /// Given on as they come where they are stored as they are to be seen, else when all are there.
 void decode_rows(const ImageCodec& codec, const ImageSource& source, const ImageRows& rows) {
     Collected turned;
     int turn = 1;
-    codec.decode_rows(source,
-                      {.begin =
-                           [&](const Image& shape, int orientation) {
-                               turn = orientation;
-                               turn == 1 ? rows.begin(shape) : turned.begin(shape);
-                           },
-                       .row = [&](const std::byte* row) { turn == 1 ? rows.row(row) : turned.add(row); }});
+    const auto begin = [&](const Image& shape, int orientation) {
+        turn = orientation;
+        turn == 1 ? rows.begin(shape) : turned.begin(shape);
+    };
+    const auto add = [&](const std::byte* row) { turn == 1 ? rows.row(row) : turned.add(row); };
+    codec.decode_rows(source, {.begin = begin, .row = add});
     if (turn != 1) give_rows(oriented(std::move(turned.image), turn), rows);
+}
+
+/// False, and nothing is given, where such a picture is decoded whole.
+bool decode_by_rows(const fs::path& file, ImageFormat format, Bytes bytes, const ImageRows& rows) {
+    if (format == ImageFormat::Hdr) return false;
+    check_bytes(file, format, bytes);
+    return named(file, [&] {
+        const ImageCodec& codec = codec_for(format, bytes);
+        if (!codec.decode_rows) return false;
+        decode_rows(codec, {.file = file, .format = format, .bytes = bytes}, rows);
+        return true;
+    });
 }
 
 /// start: the first bytes of the file.
@@ -196,8 +210,7 @@ ImageInfo load_image_info(const fs::path& file) {
 LoadedImage load_image(const fs::path& file) {
     const std::vector<std::byte> bytes = read_file(file);
     const ImageFormat format = known_format(file, bytes);
-    LoadedImage loaded =
-        format == ImageFormat::Hdr ? load_radiance(file, bytes) : load_decoded(file, format, bytes);
+    LoadedImage loaded = load_bytes(file, format, bytes);
     note_extension(file, format, loaded.notes);
     return loaded;
 }
@@ -212,16 +225,8 @@ std::vector<std::string> load_image_rows(const fs::path& file, const ImageRows& 
     const std::vector<std::byte> bytes = read_file(file);
     const ImageFormat format = known_format(file, bytes);
     std::vector<std::string> notes;
-    if (format != ImageFormat::Hdr) check_bytes(file, format, bytes);
-    const bool by_rows = format != ImageFormat::Hdr && named(file, [&] {
-                             const ImageCodec& codec = codec_for(format, bytes);
-                             if (codec.decode_rows)
-                                 decode_rows(codec, {.file = file, .format = format, .bytes = bytes}, rows);
-                             return codec.decode_rows != nullptr;
-                         });
-    if (!by_rows) {
-        LoadedImage loaded =
-            format == ImageFormat::Hdr ? load_radiance(file, bytes) : load_decoded(file, format, bytes);
+    if (!decode_by_rows(file, format, bytes, rows)) {
+        LoadedImage loaded = load_bytes(file, format, bytes);
         give_rows(loaded.image, rows);
         notes = std::move(loaded.notes);
     }
