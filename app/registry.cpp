@@ -111,25 +111,28 @@ Registry builtin_parts() {
     Registry registry;
     registry.environments = {builtin_environment_source(), blender_environment_source(),
                              bake_environment_source(), file_environment_source()};
-    registry.image_importers = {
-        {.name = "png", .description = "Pictures through libpng", .extensions = {"png"}, .load = load_image},
-        {.name = "openexr",
-         .description = "Scene-linear pictures through OpenEXR",
-         .extensions = {"exr"},
-         .load = load_image},
-        {.name = "jpeg",
-         .description = "Pictures through libjpeg",
-         .extensions = {"jpg", "jpeg"},
-         .load = load_image,
-         .load_reduced = load_image_reduced},
-        {.name = "radiance",
-         .description = "Radiance pictures",
-         .extensions = {"hdr", "pic"},
-         .load = load_image},
-        {.name = "openimageio",
-         .description = "Pictures through OpenImageIO, loaded when first needed",
-         .extensions = {"tif", "tiff", "tga", "bmp"},
-         .load = load_image}};
+    registry.image_importers = {{.name = "png",
+                                 .description = "Pictures through libpng",
+                                 .extensions = {"png"},
+                                 .load = load_image,
+                                 .load_rows = load_image_rows},
+                                {.name = "openexr",
+                                 .description = "Scene-linear pictures through OpenEXR",
+                                 .extensions = {"exr"},
+                                 .load = load_image},
+                                {.name = "jpeg",
+                                 .description = "Pictures through libjpeg",
+                                 .extensions = {"jpg", "jpeg"},
+                                 .load = load_image,
+                                 .load_rows = load_image_rows},
+                                {.name = "radiance",
+                                 .description = "Radiance pictures",
+                                 .extensions = {"hdr", "pic"},
+                                 .load = load_image},
+                                {.name = "openimageio",
+                                 .description = "Pictures through OpenImageIO, loaded when first needed",
+                                 .extensions = {"tif", "tiff", "tga", "bmp"},
+                                 .load = load_image}};
     registry.mesh_importers = {{.name = "openmesh",
                                 .description = "Meshes through OpenMesh",
                                 .extensions = {"obj", "ply", "off", "stl"},
@@ -222,11 +225,27 @@ Mesh load_mesh_part(const Registry& registry, const std::string& id, const std::
                              ", or a file that ends in " + either(extensions));
 }
 
-LoadedImage import_image(const Registry& registry, const fs::path& file, int least_side) {
-    // An unknown extension goes to the first importer, which judges by content.
+namespace {
+
+/// An unknown extension goes to the first importer, which judges by content.
+const ImageImporter& image_importer(const Registry& registry, const fs::path& file) {
     const ImageImporter* importer = part_for(registry.image_importers, file);
-    const ImageImporter& chosen = importer ? *importer : registry.image_importers.front();
-    return least_side > 0 && chosen.load_reduced ? chosen.load_reduced(file, least_side) : chosen.load(file);
+    return importer ? *importer : registry.image_importers.front();
+}
+
+}  // namespace
+
+LoadedImage import_image(const Registry& registry, const fs::path& file) {
+    return image_importer(registry, file).load(file);
+}
+
+std::vector<std::string> import_image_rows(const Registry& registry, const fs::path& file,
+                                           const ImageRows& rows) {
+    const ImageImporter& importer = image_importer(registry, file);
+    if (importer.load_rows) return importer.load_rows(file, rows);
+    LoadedImage loaded = importer.load(file);
+    give_rows(loaded.image, rows);
+    return std::move(loaded.notes);
 }
 
 const ImageExporter& image_exporter(const Registry& registry, const fs::path& file) {

@@ -51,8 +51,8 @@ struct ImageImporter {
     std::string description;
     std::vector<std::string> extensions;
     std::function<LoadedImage(const std::filesystem::path&)> load;
-    /// May give it smaller, no side shorter than that; may be empty.
-    std::function<LoadedImage(const std::filesystem::path&, int least_side)> load_reduced = {};
+    /// The same row by row, and the notes; may be empty.
+    std::function<std::vector<std::string>(const std::filesystem::path&, const ImageRows&)> load_rows = {};
 };
 struct MeshImporter {
     std::string name;
@@ -106,7 +106,10 @@ std::optional<std::uint64_t> environment_fingerprint(const Registry& registry, c
 /// By id ("sphere") or file path; likewise.
 Mesh load_mesh_part(const Registry& registry, const std::string& id, const std::stop_token& stop = {});
 /// By the file's extension; likewise.
-LoadedImage import_image(const Registry& registry, const std::filesystem::path& file, int least_side = 0);
+LoadedImage import_image(const Registry& registry, const std::filesystem::path& file);
+/// The same row by row, as load_image_rows.
+std::vector<std::string> import_image_rows(const Registry& registry, const std::filesystem::path& file,
+                                           const ImageRows& rows);
 
 /// The exporter of the file's extension; throws std::runtime_error that names what there is, before anything
 /// is computed.

@@ -60,11 +60,17 @@ void count_light(WorkLedger& work, const LightOrder& order, const ReadyLight& re
         skip(work, "further roughness levels", "the material does not reach them");
 }
 
-void count_map(WorkLedger& work, const Image& decoded, const MapLevels& uploaded) {
+void count_reading(WorkLedger& work, const MapMaker& maker, std::uint64_t beside) {
+    const Image& shape = maker.shape();
     ++work.maps_decoded;
-    work.map_bytes_decoded += decoded.bytes.size();
+    work.map_bytes_decoded += std::uint64_t(shape.width) * std::uint64_t(shape.height) *
+                              std::uint64_t(shape.channels) * bytes_per_channel(shape.type);
+    work.map_bytes_held += maker.bytes() + beside;
+}
+
+void count_upload(WorkLedger& work, const MapLevels& map) {
     ++work.maps_uploaded;
-    work.map_bytes_uploaded += bytes_of(uploaded);
+    work.map_bytes_uploaded += bytes_of(map);
 }
 
 void count_mesh(WorkLedger& work, const Mesh& mesh, bool tangents) {

@@ -112,7 +112,7 @@ std::shared_ptr<const GpuSurfaces> Renderer::State::surfaces_for(const Scene& sc
     }
     // Software spends more on small triangles than on keeping what lies under them.
     const bool at_once =
-        wanted == Reuse::Expected ||
+        wanted == Reuse::Expected || wanted == Reuse::Standing ||
         (gl::is_software() &&
          gl::SurfaceScratch::bytes_for(target.size, target.samples, kind_of(maps)) <= kSmallScratchBytes);
     if (!at_once && !kept_surfaces.was_drawn(key)) return {};
@@ -120,7 +120,7 @@ std::shared_ptr<const GpuSurfaces> Renderer::State::surfaces_for(const Scene& sc
     kept_surfaces.keep(key, made);
     // One view's camera stood still for this; a sheet's is likely to move on.
     scratch_idle = 0;
-    if (!at_once) scratch = {};
+    if (!at_once || wanted == Reuse::Standing) scratch = {};
     return made;
 }
 

@@ -43,7 +43,8 @@ struct PartShape {
     bool tiled = false;
 
     void take(const Attribute& attribute) {
-        const auto& [name, value] = attribute;
+        const std::string_view name = attribute.name;
+        const Bytes value = attribute.value;
         const auto signed_word = [&](std::size_t i) {
             return double(static_cast<std::int32_t>(word(value.subspan(4 * i))));
         };

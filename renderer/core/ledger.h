@@ -36,6 +36,7 @@ struct WorkLedger {
     std::uint64_t programs_from_disk = 0;
     std::uint64_t maps_decoded = 0;
     std::uint64_t map_bytes_decoded = 0;
+    std::uint64_t map_bytes_held = 0;  ///< the most that each took in memory while it was read
     std::uint64_t maps_from_memory = 0;
     std::uint64_t maps_uploaded = 0;
     std::uint64_t map_bytes_uploaded = 0;
@@ -85,6 +86,8 @@ inline constexpr std::array kLedgerRows{
     LedgerRow{"programs_from_disk", "Material", "Programs found on disk", &WorkLedger::programs_from_disk},
     LedgerRow{"maps_decoded", "Material", "Maps decoded", &WorkLedger::maps_decoded},
     LedgerRow{"map_bytes_decoded", "Material", "Texels decoded", &WorkLedger::map_bytes_decoded,
+              LedgerUnit::Bytes},
+    LedgerRow{"map_bytes_held", "Material", "Texels held at once", &WorkLedger::map_bytes_held,
               LedgerUnit::Bytes},
     LedgerRow{"maps_from_memory", "Material", "Maps found in memory", &WorkLedger::maps_from_memory},
     LedgerRow{"maps_uploaded", "Material", "Maps uploaded", &WorkLedger::maps_uploaded},

@@ -177,9 +177,9 @@ void try_bytes(const Target& target, std::string_view bytes) {
     try {
         target.read((folder.path / target.file).string(), bytes);
     } catch (const std::runtime_error& error) {
-        const std::string_view sentence = error.what();
-        require(!sentence.empty() && sentence.find('\n') == std::string_view::npos,
-                "an error is not one sentence");
+        const std::string sentence = error.what();
+        if (sentence.empty() || sentence.find('\n') != std::string::npos)
+            defect("an error is not one sentence: \"" + sentence + "\"");
     } catch (const std::exception& error) {
         defect(std::string("an exception of another kind: ") + error.what());
     }
