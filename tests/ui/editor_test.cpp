@@ -393,7 +393,7 @@ TEST(Editor, decodes_an_environment_once_and_never_again) {
     for (int y = 0; y < room.height; ++y)
         for (int x = 0; x < room.width; ++x) set_texel(room, x, y, x % 3, 0.5f + 0.02f * float(y));
     save_image(home / "room.exr", room);
-    const auto visit = [&](std::uint64_t decoded, std::uint64_t baked) {
+    const auto visit = [&](bool first) {
         const fs::path stats = home / "stats.json";
         Program program(
             home,
@@ -401,16 +401,16 @@ TEST(Editor, decodes_an_environment_once_and_never_again) {
                             {"-", "--env", (home / "room.exr").string(), "--stats", stats.string()}),
             {{"PATINA_CACHE_DIR", (home / "cache").string()}});
         EXPECT_DRIVEN(program.wait());
-        EXPECT_EQ(counted(stats, "environments_from_disk"), 1 - decoded);
-        EXPECT_EQ(counted(stats, "environments_decoded"), decoded);
-        EXPECT_EQ(counted(stats, "levels_baked"), baked);
+        EXPECT_EQ(counted(stats, "environments_from_disk"), first ? 0u : 1u);
+        EXPECT_EQ(counted(stats, "environments_decoded") > 0, first);  // its small picture is, too
+        EXPECT_EQ(counted(stats, "levels_baked") > 0, first);
     };
-    visit(1, 1);
-    visit(0, 0);
+    visit(true);
+    visit(false);
     set_texel(room, 3, 3, 0, 7.0f);  // another picture in the same place
     save_image(home / "room.exr", room);
-    visit(1, 1);
-    visit(0, 0);
+    visit(true);
+    visit(false);
 }
 
 TEST(Drive, names_the_line_of_a_script_that_fails) {
