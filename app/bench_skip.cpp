@@ -307,8 +307,8 @@ struct Visit {
 
 /// Of many visits.
 double median_of(const std::vector<Visit>& visits, double (*value)(const Visit&)) {
-    std::vector<double> values;
-    for (const Visit& visit : visits) values.push_back(value(visit));
+    std::vector<double> values(visits.size());
+    std::ranges::transform(visits, values.begin(), value);
     return median(std::move(values));
 }
 
