@@ -17,6 +17,7 @@ namespace {
 constexpr int kReplicates = ReferenceTarget::kReplicates;
 constexpr int kMostAtOnce = 16;  ///< points of a slice, each of which sees the pixel's area at one place
 constexpr int kMostOfMiddle = blocks::kMostPoints;
+static_assert(LightSampler::kMostCells == blocks::kLightCells);
 constexpr float kWeightOfOne = 1.0f / 4096.0f;
 constexpr double kFirstTolerance = 0.02;  ///< to which all pixels are known before any is known better
 
@@ -41,21 +42,39 @@ int longest_of(const ReferenceOptions& options) {
     return (options.max_samples + kReplicates - 1) / kReplicates;
 }
 
-blocks::PointBlock make_points(const LightSampler& light, const Place& place,
-                               const ReferenceOptions& options) {
+struct Points {
     blocks::PointBlock block{};
+    gl::LightPoints light;
+};
+Points make_points(const LightSampler& light, const Place& place, const ReferenceOptions& options) {
+    const int cells = int(light.cells().size());
+    Points points;
+    points.light.cells = cells;
+    points.light.rows.resize(std::size_t(2) * place.count * cells);
     for (int i = 0; i < place.count; ++i) {
-        glm::vec4* const rows = &block.point_rows[std::size_t(3) * i];
         const std::uint32_t index = sequence_index(place.replicate, place.first + i, longest_of(options));
         const glm::dvec3 u = scrambled_sobol(index, seed_of(options.seed, Light));
-        const LightSample sample = light.sample({u.x, u.y});
-        rows[0] = glm::vec4(glm::vec3(sample.direction), float(sample.density));
-        rows[1] = glm::vec4(sample.radiance, 0.0f);
+        glm::vec4* const row = &points.light.rows[std::size_t(2) * i * cells];
+        for (int k = 0; k < cells; ++k) {
+            const LightSample sample = light.sample(k, {u.x, u.y});
+            row[k] = glm::vec4(glm::vec3(sample.direction), float(sample.density));
+            row[cells + k] = glm::vec4(sample.radiance, 0.0f);
+        }
         const glm::dvec3 v = scrambled_sobol(index, seed_of(options.seed, Reflection));
         const double phi = 2.0 * std::numbers::pi * v.x;
-        rows[2] = glm::vec4(glm::dvec4(std::cos(phi), std::sin(phi), v.y, v.z));
+        glm::vec4* const rows = &points.block.point_rows[std::size_t(2) * i];
+        rows[0] = glm::vec4(glm::dvec4(std::cos(phi), std::sin(phi), v.y, v.z));
+        rows[1] = glm::vec4(float(u.z), 0.0f, 0.0f, 0.0f);
     }
-    return block;
+    for (int k = 0; k < cells; ++k) {
+        const LightCell& cell = light.cells()[k];
+        const double share = light.total() > 0.0 ? cell.light / light.total() : 1.0 / cells;
+        const double density = cell.light > 0.0 ? 1.0 / cell.light : 0.0;
+        glm::vec4* const rows = &points.block.cell_rows[std::size_t(2) * k];
+        rows[0] = glm::vec4(glm::dvec4(cell.direction, cell.spread));
+        rows[1] = glm::vec4(glm::dvec4(share, density, 0.0, 0.0));
+    }
+    return points;
 }
 
 double seconds_of(std::chrono::steady_clock::time_point since) {
@@ -183,10 +202,12 @@ PanoramaTexels Reference::panorama_of(const EnvironmentHandle& environment) {
 
 void Reference::restart(const Scene& scene, std::shared_ptr<const LightSampler> light) {
     State& state = *state_;
+    const auto before = state.light;
     if (light)
         state.light = std::move(light);
     else if (!state.light || state.light_of != scene.environment)
         state.light = std::make_shared<LightSampler>(panorama_of(scene.environment));
+    if (state.light != before) gl::set_reference_light(state.target, *state.light);
     state.light_of = scene.environment;
     state.scene = scene;
     state.begin();
@@ -206,11 +227,12 @@ float Reference::share_done() const {
 void Reference::draw() {
     State& state = *state_;
     if (state.progress.done || !state.light) return;
-    gl::set_reference_points(state.target, make_points(*state.light, state.next, state.options));
+    const Points points = make_points(*state.light, state.next, state.options);
+    gl::set_reference_points(state.target, points.block, points.light);
     const Renderer::ReferenceSlice slice{.replicate = state.next.replicate,
                                          .points = state.next.count,
                                          .weight = float(state.next.count) * kWeightOfOne,
-                                         .total = state.light->total(),
+                                         .cells = points.light.cells,
                                          .jitter_px = state.jitter_px()};
     state.renderer.draw_reference(state.scene, state.target, slice);
     state.progress.samples += state.next.count;

@@ -108,10 +108,27 @@ void set_reference_counts(ReferenceTarget& target, const std::vector<float>& cou
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, target.size.x, target.size.y, GL_RG, GL_FLOAT, counts.data());
 }
 
-void set_reference_points(ReferenceTarget& target, const blocks::PointBlock& points) {
+void set_reference_light(ReferenceTarget& target, const LightSampler& light) {
+    const KeepTextureBindings keep;
+    const PanoramaTexels& texels = light.texels();
+    target.light_cells = Texture::make();
+    glBindTexture(GL_TEXTURE_2D, target.light_cells.name());
+    no_filter(GL_TEXTURE_2D);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, texels.width, texels.height, 0, GL_RED, GL_UNSIGNED_BYTE,
+                 light.cell_of_texel().data());
+}
+
+void set_reference_points(ReferenceTarget& target, const blocks::PointBlock& points,
+                          const LightPoints& light) {
+    const KeepTextureBindings keep;
     if (!target.points) target.points = Buffer::make();
     glBindBuffer(GL_UNIFORM_BUFFER, target.points.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof points, &points, GL_STREAM_DRAW);
+    if (!target.light_points) target.light_points = Texture::make();
+    glBindTexture(GL_TEXTURE_2D, target.light_points.name());
+    no_filter(GL_TEXTURE_2D);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, light.cells, int(light.rows.size()) / light.cells, 0, GL_RGBA,
+                 GL_FLOAT, light.rows.data());
 }
 
 void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps) {
@@ -135,6 +152,8 @@ void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps) {
 void begin_reference_slice(const ReferenceTarget& target, int replicate, float weight) {
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffers[replicate].name());
     target.surface.bind_layers();
+    bind_texture(kLightPointsUnit, GL_TEXTURE_2D, target.light_points);
+    bind_texture(kLightCellsUnit, GL_TEXTURE_2D, target.light_cells);
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);

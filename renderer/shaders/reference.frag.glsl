@@ -3,6 +3,8 @@
 // the cosine), weighted by Veach's power heuristic: g p/(p_light² + p_reflection²), with
 //     g = [F D V NoL + (FmsEms + kD) NoL/π] L.
 // The square leaves to the other strategy what this one meets but now and then; with evenly spread points that pays.
+// The panorama is divided into cells (ibl/light_cells.h). A pixel draws from a cell about as often as it reflects of the
+// cell's light, judged by the cell's middle and width: of several softboxes it looks at the one that it mirrors.
 // All pixels share the points of a slice; their errors are then smooth across the picture instead of grainy.
 // PANORAMA_LIGHTS: 0, 1 or 2 for more of the lights whose colours the panorama needs. The search for the nearest of several
 // takes software renderers longer than all the rest, even where no texel asks for it.
@@ -14,7 +16,9 @@
 
 uniform sampler2D brdf_table;         // A and B over (√NoV, roughness)
 uniform sampler2D stored_fragments;   // of which triangle; 0: nothing
-uniform vec2 reference_slice;         // how many points; 1/∫ mean radiance dω, exposed
+uniform sampler2D light_points;       // a column a cell, two rows a point: direction, density in the cell; radiance
+uniform sampler2D light_cells;        // of a texel of the panorama: its cell, of 255
+uniform ivec2 reference_slice;        // how many points; how many cells
 
 layout(location = 0) out vec4 picture_color;
 layout(location = 1) out float replicate_value;
@@ -52,6 +56,47 @@ Sampled make_sampled(Surface s, vec3 V) {
     return p;
 }
 
+// Shares of the cells up to and with each, from 0 to 1. Drawn by these very numbers, so that no rounding makes a bias.
+float cell_ends[PATINA_LIGHT_CELLS + 1];
+const float kEvenShare = 0.05;        // of the directions from the light: by its brightness alone
+
+// About what is reflected of a cell's light, over its light: the lobe spread by the cell's width, from its middle.
+float cell_reflected(Sampled p, vec3 middle, float spread) {
+    float wide = sqrt(spread);
+    if (middle.z < -1.5 * wide) return 0.0;
+    vec3 H = normalize(p.V + vec3(middle.xy, max(middle.z, 1e-3)));
+    float NoL = max(middle.z, 0.0) + 0.3 * wide;
+    float VoH = dot(p.V, H);
+    vec2 widths = vec2(p.alpha * p.alpha, 0.25 * spread / max(VoH * VoH, 0.05));
+    float F0 = mean_channel(p.F0);
+    return light_specular(vec3(F0), dot(H.xy, H.xy), vec3(p.V.z, NoL, VoH), widths).x + mean_channel(p.body) * NoL / kPi;
+}
+
+void set_cell_ends(Sampled p, mat3 frame) {
+    float sum = 0.0;
+    cell_ends[0] = 0.0;
+    for (int i = 0; i < reference_slice.y; ++i) {
+        vec4 cell = cell_rows[2 * i];
+        sum += cell_reflected(p, cell.xyz * frame, cell.w) * cell_rows[2 * i + 1].x;
+        cell_ends[i + 1] = sum;
+    }
+    float scale = (1.0 - kEvenShare) / max(sum, 1e-20);
+    float even = 0.0;
+    for (int i = 0; i < reference_slice.y; ++i) {
+        even += kEvenShare * cell_rows[2 * i + 1].x;
+        cell_ends[i + 1] = cell_ends[i + 1] * scale + even;
+    }
+}
+
+int cell_at(float u) {
+    float wanted = u * cell_ends[reference_slice.y];
+    int cell = 0;
+    for (int i = 1; i < reference_slice.y; ++i) cell += cell_ends[i] <= wanted ? 1 : 0;
+    return cell;
+}
+
+float share_of(int cell) { return (cell_ends[cell + 1] - cell_ends[cell]) / cell_ends[reference_slice.y]; }
+
 // Light from L with its weight. p_light: density of the strategy that draws from the light; drawn: whether it drew this.
 vec3 weighed(Sampled p, vec3 L, float p_light, vec3 radiance, bool drawn) {
     if (L.z <= 0.0) return vec3(0.0);
@@ -62,7 +107,7 @@ vec3 weighed(Sampled p, vec3 L, float p_light, vec3 radiance, bool drawn) {
     vec3 g = (fresnel_schlick(p.F0, dot(p.V, H)) * (D * visible) + p.body / kPi) * L.z;
     float p_specular = D / (2.0 * (p.k * p.V.z + p.t));
     float p_reflection = mix(L.z / kPi, p_specular, p.specular);
-    float here = drawn ? p_light : p_reflection;
+    float here = max(drawn ? p_light : p_reflection, 1e-20);   // 0 only where no light is
     float ratio = (drawn ? p_reflection : p_light) / here;
     return g * radiance / (here * (1.0 + ratio * ratio));
 }
@@ -83,10 +128,8 @@ mat3 frame_around(vec3 N) {
     return mat3(vec3(1.0 + side * N.x * N.x * a, side * b, -side * N.x), vec3(b, side + N.y * N.y * a, -N.y), N);
 }
 
-vec3 panorama_texel(vec3 d) {
-    ivec2 size = textureSize(panorama_map, 0);
-    ivec2 at = ivec2(panorama_coordinates(d) * vec2(size));
-    vec4 texel = texelFetch(panorama_map, clamp(at, ivec2(0), size - 1), 0);
+vec3 panorama_texel(vec3 d, ivec2 at) {
+    vec4 texel = texelFetch(panorama_map, at, 0);
 #if PANORAMA_LIGHTS == 1
     texel.rgb += texel.a * color_of(light_irradiance[0].rgb);
 #elif PANORAMA_LIGHTS > 1
@@ -95,15 +138,24 @@ vec3 panorama_texel(vec3 d) {
     return texel.rgb * env_scale.x;
 }
 
-vec3 estimate(Sampled p, mat3 frame, int i) {
-    vec4 light = point_rows[3 * i];
-    vec3 radiance = point_rows[3 * i + 1].rgb * camera_position.w;
-    vec4 u = point_rows[3 * i + 2];
-    vec3 sum = weighed(p, light.xyz * frame, light.w, radiance, true);
+vec3 from_light(Sampled p, mat3 frame, int i) {
+    int cell = cell_at(point_rows[2 * i + 1].x);
+    vec4 light = texelFetch(light_points, ivec2(cell, 2 * i), 0);
+    vec3 radiance = texelFetch(light_points, ivec2(cell, 2 * i + 1), 0).rgb * camera_position.w;
+    return weighed(p, light.xyz * frame, light.w * share_of(cell), radiance, true);
+}
+
+vec3 from_reflection(Sampled p, mat3 frame, int i) {
+    vec4 u = point_rows[2 * i];
     float r = sqrt(u.z);
     vec3 L = u.w < p.specular ? specular_direction(p, u.xy, u.z) : vec3(r * u.xy, sqrt(1.0 - u.z));
-    radiance = panorama_texel(frame * L);
-    return sum + weighed(p, L, mean_channel(radiance) * reference_slice.y, radiance, false);
+    vec3 d = frame * L;
+    ivec2 size = textureSize(panorama_map, 0);
+    ivec2 at = clamp(ivec2(panorama_coordinates(d) * vec2(size)), ivec2(0), size - 1);
+    vec3 radiance = panorama_texel(d, at);
+    int cell = int(texelFetch(light_cells, at, 0).r * 255.0 + 0.5);
+    float p_light = mean_channel(radiance) / camera_position.w * cell_rows[2 * cell + 1].y * share_of(cell);
+    return weighed(p, L, p_light, radiance, false);
 }
 
 vec3 reflected() {
@@ -114,10 +166,10 @@ vec3 reflected() {
     vec3 local = environment_direction(g.V) * frame;
     local.z = max(local.z, 1e-4);
     Sampled p = make_sampled(s, normalize(local));
+    set_cell_ends(p, frame);
     vec3 sum = vec3(0.0);
-    int count = int(reference_slice.x);
-    for (int i = 0; i < count; ++i) sum += estimate(p, frame, i);
-    return min(at_least(sum * (s.ao / float(count)) + s.emission, 0.0), vec3(ray_right.w));
+    for (int i = 0; i < reference_slice.x; ++i) sum += from_light(p, frame, i) + from_reflection(p, frame, i);
+    return min(at_least(sum * (s.ao / float(reference_slice.x)) + s.emission, 0.0), vec3(ray_right.w));
 }
 
 // Software renderers execute both sides of an `if`, and go through a loop as often as any of the pixels they shade together:
