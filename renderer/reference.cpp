@@ -72,7 +72,7 @@ Points make_points(const LightSampler& light, const Place& place, const Referenc
         const double density = cell.light > 0.0 ? 1.0 / cell.light : 0.0;
         glm::vec4* const rows = &points.block.cell_rows[std::size_t(2) * k];
         rows[0] = glm::vec4(glm::dvec4(cell.direction, cell.spread));
-        rows[1] = glm::vec4(glm::dvec4(share, density, 0.0, 0.0));
+        rows[1] = glm::vec4(glm::dvec4(share, density, std::sqrt(cell.spread), 0.0));
     }
     return points;
 }
@@ -97,12 +97,14 @@ struct Reference::State {
     double wanted = 0.0;        ///< to what pixels are to be known before they rest
     std::vector<float> counts;  ///< as ReferenceTarget's
     int counted = 0;            ///< samples when they were set
-    int wanted_count = 0;       ///< points of a slice from the next round on; 0: as many as is good
+    int rows = 0;               ///< of the picture that have the next slice already
+    int rows_at_once = 0;       ///< of a step that follows the clock; 0: none did yet
 
     int most_at_once() const;
-    int count_at_once() const { return wanted_count > 0 ? wanted_count : most_at_once(); }
+    int count_at_once() const { return rows_at_once > 0 && round == 0 ? 1 : most_at_once(); }
     glm::vec2 jitter_px() const;
     void begin();
+    void draw(int count);
     void judge();
     void rest(const std::vector<float>& half_widths);
     void end_round();
@@ -123,7 +125,7 @@ glm::vec2 Reference::State::jitter_px() const {
 
 void Reference::State::begin() {
     progress = {};
-    round = judged = counted = 0;
+    round = judged = counted = rows = 0;
     next = {.count = count_at_once()};
     wanted = std::max(options.tolerance, kFirstTolerance);
     counts.assign(2 * std::size_t(target.size.x) * target.size.y, 0.0f);
@@ -175,8 +177,8 @@ void Reference::State::judge() {
 
 void Reference::State::end_round() {
     const int left = longest_of(options) - next.first - next.count;
-    next = {.replicate = 0, .first = next.first + next.count, .count = std::min(count_at_once(), left)};
     ++round;
+    next = {.replicate = 0, .first = next.first + next.count, .count = std::min(count_at_once(), left)};
     const bool last = left <= 0;
     const bool is_due = options.tolerance > 0.0 && round >= 4 && 4 * progress.samples >= 5 * judged;
     if (last || is_due) judge();
@@ -224,35 +226,49 @@ float Reference::share_done() const {
     return float(std::max(of_points, 1.0 / (missing * missing)));
 }
 
+/// So many more rows of the slice that is next.
+void Reference::State::draw(int count) {
+    if (rows == 0) {
+        const Points points = make_points(*light, next, options);
+        gl::set_reference_points(target, points.block, points.light);
+    }
+    const int end = std::min(rows + count, target.size.y);
+    const Renderer::ReferenceSlice slice{.replicate = next.replicate,
+                                         .points = next.count,
+                                         .weight = float(next.count) * kWeightOfOne,
+                                         .rows = {rows, end},
+                                         .jitter_px = jitter_px()};
+    renderer.draw_reference(scene, target, slice);
+    rows = end;
+    if (rows < target.size.y) return;
+    rows = 0;
+    progress.samples += next.count;
+    if (++next.replicate == kReplicates) end_round();
+}
+
 void Reference::draw() {
     State& state = *state_;
-    if (state.progress.done || !state.light) return;
-    const Points points = make_points(*state.light, state.next, state.options);
-    gl::set_reference_points(state.target, points.block, points.light);
-    const Renderer::ReferenceSlice slice{.replicate = state.next.replicate,
-                                         .points = state.next.count,
-                                         .weight = float(state.next.count) * kWeightOfOne,
-                                         .cells = points.light.cells,
-                                         .jitter_px = state.jitter_px()};
-    state.renderer.draw_reference(state.scene, state.target, slice);
-    state.progress.samples += state.next.count;
-    if (++state.next.replicate == kReplicates) state.end_round();
+    if (!state.progress.done && state.light) state.draw(state.target.size.y);
 }
 
 void Reference::draw_for(double seconds) {
     State& state = *state_;
-    if (state.wanted_count == 0) state.wanted_count = state.next.count = 1;
+    if (!state.light) return;
+    const int height = state.target.size.y;
+    if (state.rows_at_once == 0) {
+        state.rows_at_once = (height + 7) / 8;
+        if (state.progress.samples == 0) state.next.count = state.count_at_once();
+    }
     const auto begin = std::chrono::steady_clock::now();
-    for (int slices = 1; !state.progress.done; ++slices) {
-        const int count = state.next.count;
-        draw();
+    for (int steps = 1; !state.progress.done; ++steps) {
+        state.draw(state.rows_at_once);
         gl::wait_for_gpu();
         const double spent = seconds_of(begin);
-        // A slice that fills half the time leaves room for another that takes longer.
-        const double slice = std::max(spent / slices, 1e-6);
-        const double ratio = std::clamp(0.5 * seconds / slice, 0.25, 2.0);
-        state.wanted_count = std::clamp(int(std::lround(count * ratio)), 1, state.most_at_once());
-        if (spent + slice > seconds) return;
+        // A step that fills half the time leaves room for another that takes longer.
+        const double step = std::max(spent / steps, 1e-6);
+        const double ratio = std::clamp(0.5 * seconds / step, 0.25, 2.0);
+        state.rows_at_once = std::clamp(int(std::lround(state.rows_at_once * ratio)), 1, height);
+        if (spent + step > seconds) return;
     }
 }
 
@@ -263,7 +279,10 @@ void Reference::finish() {
 void Reference::write(RenderTarget& target) const {
     const State& state = *state_;
     target.plain = state.scene.view.plain_color;
-    gl::write_reference_mean(state.target, state.progress.samples - state.counted, kWeightOfOne, target);
+    const gl::GatheredPoints points{.all = state.progress.samples - state.counted,
+                                    .rows = state.rows,
+                                    .more = state.rows > 0 ? state.next.count : 0};
+    gl::write_reference_mean(state.target, points, kWeightOfOne, target);
     state.renderer.show(state.scene.view, target);
 }
 

@@ -124,7 +124,7 @@ public:
         int replicate = 0;
         int points = 1;
         float weight = 1.0f;        ///< 0…1, what this slice counts in the sum
-        int cells = 1;              ///< of the light
+        glm::ivec2 rows{0, 1};      ///< of the picture, from the bottom: from, to
         glm::vec2 jitter_px{0.0f};  ///< −½…½
     };
     void draw_reference(const Scene& scene, ReferenceTarget& target, const ReferenceSlice& slice);

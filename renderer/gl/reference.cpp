@@ -131,7 +131,7 @@ void set_reference_points(ReferenceTarget& target, const blocks::PointBlock& poi
                  GL_FLOAT, light.rows.data());
 }
 
-void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps) {
+void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps, glm::ivec2 rows) {
     if (!target.surface.fits(target.size, 1, maps)) {
         target.surface.make(target.size, 1, maps);
         for (const Framebuffer& framebuffer : target.framebuffers) {
@@ -140,6 +140,8 @@ void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps) {
             require_complete(target.size);
         }
     }
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, rows.x, target.size.x, rows.y - rows.x);
     target.surface.begin();
     bind_texture(kFragmentPlacesUnit, GL_TEXTURE_2D, target.counts);
     glDepthFunc(GL_ALWAYS);
@@ -171,9 +173,11 @@ void end_reference_slice() {
     glBlendFunc(GL_ONE, GL_ZERO);
     glBlendColor(0.0f, 0.0f, 0.0f, 0.0f);
     glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
 }
 
-void write_reference_mean(const ReferenceTarget& target, int points, float weight, const RenderTarget& to) {
+void write_reference_mean(const ReferenceTarget& target, const GatheredPoints& points, float weight,
+                          const RenderTarget& to) {
     const KeepDrawState keep;
     const KeepTextureBindings keep_textures;
     glBindFramebuffer(GL_FRAMEBUFFER, to.radiance_framebuffer.name());
@@ -183,8 +187,10 @@ void write_reference_mean(const ReferenceTarget& target, int points, float weigh
     glUseProgram(target.mean.name());
     bind_texture(kPictureUnit, GL_TEXTURE_2D, target.sum);
     bind_texture(kFragmentPlacesUnit, GL_TEXTURE_2D, target.counts);
-    glUniform3f(glGetUniformLocation(target.mean.name(), "reference_weight"), float(points), weight,
+    glUniform3f(glGetUniformLocation(target.mean.name(), "reference_weight"), float(points.all), weight,
                 largest_radiance(to));
+    glUniform2f(glGetUniformLocation(target.mean.name(), "reference_rows"), float(points.rows),
+                float(points.more));
     glBindVertexArray(target.nothing.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }

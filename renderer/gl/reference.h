@@ -51,17 +51,25 @@ struct LightPoints {
 void set_reference_points(ReferenceTarget& target, const blocks::PointBlock& points,
                           const LightPoints& light);
 
-/// Between begin and end the mesh's material is drawn into target.surface.
-void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps);
+/// Between begin and end the mesh's material is drawn into target.surface. rows: to which all is kept until
+/// the slice ends; from, to.
+void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps, glm::ivec2 rows);
 /// Between begin and end what is drawn is added to the sum, weight (0…1) times: the surface, in a replicate
 /// too; then what is behind it, at its depth.
 void begin_reference_slice(const ReferenceTarget& target, int replicate, float weight);
 void begin_reference_background();
 void end_reference_slice();
 
-/// The mean so far into an ordinary target's radiance (one sample a pixel, the same size).
-/// points: since the counts were set, all together > 0; weight: of one of them.
-void write_reference_mean(const ReferenceTarget& target, int points, float weight, const RenderTarget& to);
+/// Of a pixel since the counts were set: all have so many, the first rows more.
+struct GatheredPoints {
+    int all = 0;
+    int rows = 0;
+    int more = 0;
+};
+/// The mean so far into an ordinary target's radiance (one sample a pixel, the same size); black where there
+/// are no points yet. weight: of one of them.
+void write_reference_mean(const ReferenceTarget& target, const GatheredPoints& points, float weight,
+                          const RenderTarget& to);
 
 /// One layer after the other, each bottom row first.
 std::vector<float> read_replicates(const ReferenceTarget& target);

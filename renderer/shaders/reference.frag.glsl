@@ -18,7 +18,7 @@ uniform sampler2D brdf_table;         // A and B over (√NoV, roughness)
 uniform sampler2D stored_fragments;   // of which triangle; 0: nothing
 uniform sampler2D light_points;       // a column a cell, two rows a point: direction, density in the cell; radiance
 uniform sampler2D light_cells;        // of a texel of the panorama: its cell, of 255
-uniform ivec2 reference_slice;        // how many points; how many cells
+uniform int reference_points;         // of the slice
 
 layout(location = 0) out vec4 picture_color;
 layout(location = 1) out float replicate_value;
@@ -27,6 +27,8 @@ struct Sampled {
     vec3 V;             // in the frame whose z is the shading normal
     vec3 F0;
     vec3 body;          // FmsEms + kD
+    float f0;           // means of the channels: of F0, of the body over π
+    float evenly;
     float alpha;
     float specular;     // share of directions drawn from the specular lobe
     float k;            // of the bounded distribution
@@ -45,6 +47,8 @@ Sampled make_sampled(Surface s, vec3 V) {
     vec2 ab = textureLod(brdf_table, albedo_coordinates(V.z, s.roughness), 0.0).rg;
     ReflectionWeights w = split_sum_weights(s.albedo, s.metallic, ab);
     p.body = w.multiple + w.diffuse;
+    p.f0 = mean_channel(p.F0);
+    p.evenly = mean_channel(p.body) / kPi;
     float single = mean_channel(w.single);
     float rest = mean_channel(p.body);
     p.specular = rest > 1e-3 * single ? clamp(single / (single + rest), 0.3, 0.9) : 1.0;
@@ -56,46 +60,65 @@ Sampled make_sampled(Surface s, vec3 V) {
     return p;
 }
 
-// Shares of the cells up to and with each, from 0 to 1. Drawn by these very numbers, so that no rounding makes a bias.
-float cell_ends[PATINA_LIGHT_CELLS + 1];
-const float kEvenShare = 0.05;        // of the directions from the light: by its brightness alone
+// What is reflected of each cell, about, and the sums up to and with it: four cells a row, all indices constants, since software
+// renderers index arrays of their own by gathering and scattering.
+const int kCellRows = PATINA_LIGHT_CELLS / 4;
+vec4 cell_shares[kCellRows];
+vec4 cell_ends[kCellRows];
+const float kEvenShare = 0.003;       // a hundredth of what white reflects evenly: whatever the direction, no light is left out
 
-// About what is reflected of a cell's light, over its light: the lobe spread by the cell's width, from its middle.
-float cell_reflected(Sampled p, vec3 middle, float spread) {
-    float wide = sqrt(spread);
-    if (middle.z < -1.5 * wide) return 0.0;
-    vec3 H = normalize(p.V + vec3(middle.xy, max(middle.z, 1e-3)));
-    float NoL = max(middle.z, 0.0) + 0.3 * wide;
-    float VoH = dot(p.V, H);
-    vec2 widths = vec2(p.alpha * p.alpha, 0.25 * spread / max(VoH * VoH, 0.05));
-    float F0 = mean_channel(p.F0);
-    return light_specular(vec3(F0), dot(H.xy, H.xy), vec3(p.V.z, NoL, VoH), widths).x + mean_channel(p.body) * NoL / kPi;
+// About what is reflected of a cell's light, times its light: a lobe as much wider as the cell is, from the cell's middle.
+// With S = V + L: VoH = |S|/2, and D(H) = w |S|⁴/(π (S.x² + S.y² + w S.z²)²), w = alpha² + (width/|S|)². Its wide tails
+// keep the weights from being far off where the cell's middle says little. Vis is taken as ½/mix(2 NoL NoV, NoL + NoV, alpha).
+float cell_share(Sampled p, mat3 frame, int i) {
+    vec4 cell = cell_rows[2 * i];
+    vec4 more = cell_rows[2 * i + 1];
+    vec3 middle = cell.xyz * frame;
+    vec3 S = p.V + vec3(middle.xy, max(middle.z, 1e-3));
+    float size2 = dot(S, S);
+    float wide = p.alpha * p.alpha + cell.w / max(size2, 0.2);
+    float spread = dot(S.xy, S.xy) + wide * S.z * S.z;
+    float NoL = max(middle.z, 0.0) + 0.3 * more.z;
+    float shadowed = mix(2.0 * NoL * p.V.z, NoL + p.V.z, p.alpha);
+    float F = p.f0 + (1.0 - p.f0) * pow5(max(1.0 - 0.5 * sqrt(size2), 0.0));
+    float single = 0.5 * F * wide * size2 * size2 / (spread * spread * shadowed);
+    float reflected = middle.z < -1.5 * more.z ? 0.0 : (single + p.evenly) * NoL;
+    return (reflected + kEvenShare) * more.x;
 }
 
-void set_cell_ends(Sampled p, mat3 frame) {
-    float sum = 0.0;
-    cell_ends[0] = 0.0;
-    for (int i = 0; i < reference_slice.y; ++i) {
-        vec4 cell = cell_rows[2 * i];
-        sum += cell_reflected(p, cell.xyz * frame, cell.w) * cell_rows[2 * i + 1].x;
-        cell_ends[i + 1] = sum;
-    }
-    float scale = (1.0 - kEvenShare) / max(sum, 1e-20);
-    float even = 0.0;
-    for (int i = 0; i < reference_slice.y; ++i) {
-        even += kEvenShare * cell_rows[2 * i + 1].x;
-        cell_ends[i + 1] = cell_ends[i + 1] * scale + even;
-    }
+void set_cell_row(Sampled p, mat3 frame, int i, float before, out vec4 shares, out vec4 ends) {
+    shares = vec4(cell_share(p, frame, 4 * i), cell_share(p, frame, 4 * i + 1), cell_share(p, frame, 4 * i + 2),
+                  cell_share(p, frame, 4 * i + 3));
+    ends.x = before + shares.x;
+    ends.y = ends.x + shares.y;
+    ends.z = ends.y + shares.z;
+    ends.w = ends.z + shares.w;
+}
+
+void set_cells(Sampled p, mat3 frame) {
+    set_cell_row(p, frame, 0, 0.0, cell_shares[0], cell_ends[0]);
+    set_cell_row(p, frame, 1, cell_ends[0].w, cell_shares[1], cell_ends[1]);
+    set_cell_row(p, frame, 2, cell_ends[1].w, cell_shares[2], cell_ends[2]);
+    set_cell_row(p, frame, 3, cell_ends[2].w, cell_shares[3], cell_ends[3]);
+    set_cell_row(p, frame, 4, cell_ends[3].w, cell_shares[4], cell_ends[4]);
+    set_cell_row(p, frame, 5, cell_ends[4].w, cell_shares[5], cell_ends[5]);
+    set_cell_row(p, frame, 6, cell_ends[5].w, cell_shares[6], cell_ends[6]);
+    set_cell_row(p, frame, 7, cell_ends[6].w, cell_shares[7], cell_ends[7]);
 }
 
 int cell_at(float u) {
-    float wanted = u * cell_ends[reference_slice.y];
-    int cell = 0;
-    for (int i = 1; i < reference_slice.y; ++i) cell += cell_ends[i] <= wanted ? 1 : 0;
-    return cell;
+    vec4 wanted = vec4(u * cell_ends[kCellRows - 1].w);
+    vec4 passed = vec4(0.0);
+    for (int i = 0; i < kCellRows; ++i) passed += vec4(lessThanEqual(cell_ends[i], wanted));
+    return min(int(dot(passed, vec4(1.0))), PATINA_LIGHT_CELLS - 1);
 }
 
-float share_of(int cell) { return (cell_ends[cell + 1] - cell_ends[cell]) / cell_ends[reference_slice.y]; }
+// Of the directions from the light, those that lie in a cell.
+float share_of(int cell) {
+    vec4 row = vec4(0.0);
+    for (int i = 0; i < kCellRows; ++i) row = cell / 4 == i ? cell_shares[i] : row;
+    return dot(row, vec4(equal(ivec4(cell % 4), ivec4(0, 1, 2, 3)))) / cell_ends[kCellRows - 1].w;
+}
 
 // Light from L with its weight. p_light: density of the strategy that draws from the light; drawn: whether it drew this.
 vec3 weighed(Sampled p, vec3 L, float p_light, vec3 radiance, bool drawn) {
@@ -166,10 +189,10 @@ vec3 reflected() {
     vec3 local = environment_direction(g.V) * frame;
     local.z = max(local.z, 1e-4);
     Sampled p = make_sampled(s, normalize(local));
-    set_cell_ends(p, frame);
+    set_cells(p, frame);
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < reference_slice.x; ++i) sum += from_light(p, frame, i) + from_reflection(p, frame, i);
-    return min(at_least(sum * (s.ao / float(reference_slice.x)) + s.emission, 0.0), vec3(ray_right.w));
+    for (int i = 0; i < reference_points; ++i) sum += from_light(p, frame, i) + from_reflection(p, frame, i);
+    return min(at_least(sum * (s.ao / float(reference_points)) + s.emission, 0.0), vec3(ray_right.w));
 }
 
 // Software renderers execute both sides of an `if`, and go through a loop as often as any of the pixels they shade together:
