@@ -227,11 +227,14 @@ std::string skip_tables(const Json& result) {
     const Json& light = result.at("environment_switch");
     text += "\nAnother environment, until its picture is there; decoding it alone takes " +
             number(light.at("decode_ms").get<double>(), 1) +
-            " ms.\n\n| from | light there, ms | seen, ms | without skipping |\n|---|---|---|---|\n";
+            " ms.\n\n| from | light there, ms | drawing alone, ms | seen, ms | seen less drawing, ms | seen "
+            "without skipping, ms |\n|---|---|---|---|---|---|\n";
     for (const Json& row : light.at("cases"))
         text += "| " + row.at("name").get<std::string>() + " | " +
                 number(row.at("light_ready_ms").get<double>(), 1) + " | " +
+                number(row.at("drawing_ms").get<double>(), 1) + " | " +
                 number(row.at("skip_ms").get<double>(), 1) + " | " +
+                number(row.at("skip_less_drawing_ms").get<double>(), 1) + " | " +
                 number(row.at("no_skip_ms").get<double>(), 1) + " |\n";
     return text;
 }

@@ -99,15 +99,25 @@ CommandRun run_once(const CommandCase& each, bool skip, const fs::path& folder) 
     return run;
 }
 
-/// Of 8-bit codes.
-int largest_step(const fs::path& one, const fs::path& other) {
+struct PictureDifference {
+    int largest = 0;  ///< of 8-bit codes
+    int pixels = 0;   ///< that are not the same
+};
+
+PictureDifference difference(const fs::path& one, const fs::path& other) {
     const Image a = load_image(one).image;
     const Image b = load_image(other).image;
-    if (a.bytes.size() != b.bytes.size()) return 255;
-    int largest = 0;
-    for (std::size_t i = 0; i < a.bytes.size(); ++i)
-        largest = std::max(largest, std::abs(int(a.bytes[i]) - int(b.bytes[i])));
-    return largest;
+    if (a.bytes.size() != b.bytes.size()) return {255, a.width * a.height};
+    PictureDifference found;
+    const std::size_t channels = std::size_t(a.channels);
+    for (std::size_t at = 0; at < a.bytes.size(); at += channels) {
+        int largest = 0;
+        for (std::size_t i = at; i < at + channels; ++i)
+            largest = std::max(largest, std::abs(int(a.bytes[i]) - int(b.bytes[i])));
+        found.largest = std::max(found.largest, largest);
+        found.pixels += largest > 0 ? 1 : 0;
+    }
+    return found;
 }
 
 Json summary(const std::vector<CommandRun>& runs) {
@@ -130,22 +140,25 @@ Json bench_commands(const BenchContext& context, int repetitions) {
     set_variable("XDG_CACHE_HOME", path_to_utf8(folder.path() / "cache"));
     set_variable("PATINA_CACHE_DIR", path_to_utf8(folder.path() / "cache" / "patina"));
     Json rows = Json::array();
-    std::printf("%-28s %9s %9s %6s  %9s %9s  %s\n", "picture, whole command", "CPU ms", "no skip", "ratio",
-                "peak MiB", "no skip", "largest step");
+    std::printf("%-28s %9s %9s %6s  %9s %9s %6s  %s\n", "picture, whole command", "CPU ms", "no skip",
+                "ratio", "peak MiB", "no skip", "ratio", "pixels that differ, most");
     for (const CommandCase& each : command_cases(context)) {
         std::array<std::vector<CommandRun>, 2> runs;
         for (int i = 0; i < repetitions; ++i)
             for (const int which : {i % 2, 1 - i % 2})
                 runs[std::size_t(which)].push_back(run_once(each, which == 0, folder.path()));
+        const PictureDifference other = difference(folder.path() / "skip.png", folder.path() / "all.png");
         Json row{{"name", each.name},
                  {"skip", summary(runs[0])},
                  {"no_skip", summary(runs[1])},
-                 {"largest_code_step", largest_step(folder.path() / "skip.png", folder.path() / "all.png")}};
+                 {"largest_code_step", other.largest},
+                 {"different_pixels", other.pixels}};
         const auto value = [&](const char* side, const char* key) { return row[side][key].get<double>(); };
-        std::printf("%-28s %9.0f %9.0f %6.2f  %9.0f %9.0f  %d\n", each.name.c_str(), value("skip", "cpu_ms"),
-                    value("no_skip", "cpu_ms"), value("skip", "cpu_ms") / value("no_skip", "cpu_ms"),
-                    value("skip", "peak_mib"), value("no_skip", "peak_mib"),
-                    row["largest_code_step"].get<int>());
+        std::printf("%-28s %9.0f %9.0f %6.2f  %9.0f %9.0f %6.2f  %d, %d\n", each.name.c_str(),
+                    value("skip", "cpu_ms"), value("no_skip", "cpu_ms"),
+                    value("skip", "cpu_ms") / value("no_skip", "cpu_ms"), value("skip", "peak_mib"),
+                    value("no_skip", "peak_mib"), value("skip", "peak_mib") / value("no_skip", "peak_mib"),
+                    other.pixels, other.largest);
         rows.push_back(std::move(row));
     }
     set_variable("XDG_CACHE_HOME", before);
@@ -285,52 +298,94 @@ Json bench_maps(BenchStage& stage, const BenchContext& context) {
 
 // --- another environment, until the picture under it is there ---
 
-Json bench_switch(BenchStage& stage, const BenchContext& context) {
-    const std::string& environment = context.environments.back();
-    const TargetHandle target = stage.renderer.make_target(glm::ivec2(kSidePx));
-    const auto options = [&](bool skip, const fs::path& cache) {
-        return SceneLoader::Options{
-            .parallel_for = stage.jobs.parallel_for(), .cache = {.folder = cache}, .skip = skip};
-    };
-    struct Shown {
-        std::vector<double> light, all;  ///< ms until the light is on the GPU, and until it is seen
-    };
-    std::array<std::array<Shown, 3>, 2> shown;
-    const auto show = [&](SceneLoader& loader, Scene scene, Shown& times) {
-        double light = 0.0;
-        times.all.push_back(milliseconds([&] {
-            light = milliseconds(
-                [&] { scene.environment = loader.environment(environment, loader.needed_light(scene)); });
-            stage.renderer.draw(scene, *target);
-            stage.renderer.read_display(*target);
-        }));
-        times.light.push_back(light);
-    };
+/// Milliseconds of one visit to an environment, from a picture under another one.
+struct Visit {
+    double light = 0.0;  ///< until its light is on the GPU
+    double seen = 0.0;   ///< until the picture under it is drawn and read back
+    double drawn = 0.0;  ///< of that, drawing: the same change once more, with both lights there
+};
+
+/// Of many visits.
+double median_of(const std::vector<Visit>& visits, double (*value)(const Visit&)) {
+    std::vector<double> values;
+    for (const Visit& visit : visits) values.push_back(value(visit));
+    return median(std::move(values));
+}
+
+struct SwitchRun {
+    static constexpr std::array kNames{"cold", "disk cache", "memory"};
+    std::array<std::array<std::vector<Visit>, kNames.size()>, 2> visits;  ///< with skipping and without
     std::vector<double> decode;
+};
+
+Visit visit_environment(BenchStage& stage, SceneLoader& loader, const Scene& before,
+                        const std::string& environment) {
+    const TargetHandle target = stage.renderer.make_target(glm::ivec2(kSidePx));
+    const auto draw = [&](const Scene& scene) {
+        stage.renderer.draw(scene, *target, Reuse::IfRepeated);
+        stage.renderer.read_display(*target);
+    };
+    Scene scene = before;
+    Visit visit;
+    draw(before);
+    visit.seen = milliseconds([&] {
+        visit.light = milliseconds(
+            [&] { scene.environment = loader.environment(environment, loader.needed_light(scene)); });
+        draw(scene);
+    });
+    draw(before);
+    visit.drawn = milliseconds([&] { draw(scene); });
+    return visit;
+}
+
+SwitchRun run_switch(BenchStage& stage, const BenchContext& context, const std::string& environment) {
+    SwitchRun run;
+    const EnvironmentHandle before = stage.loader(context.registry).environment("furnace");
     for (int i = 0; i < context.repetitions(); ++i) {
-        decode.push_back(milliseconds([&] { load_environment(context.registry, environment); }));
-        for (const int which : {0, 1}) {
+        run.decode.push_back(milliseconds([&] { load_environment(context.registry, environment); }));
+        for (const int which : {i % 2, 1 - i % 2}) {
             const TemporaryFolder cache("patina-skip");
-            auto& own = shown[std::size_t(which)];
+            stage.renderer.set_reuse(which == 0);
+            auto& visits = run.visits[std::size_t(which)];
             for (const std::size_t from : {0u, 1u}) {  // nowhere, disk
-                SceneLoader loader(stage.renderer, context.registry, options(which == 0, cache.path()));
-                const Scene scene = loader.scene("plastic-glossy-red", SceneOptions{});
-                show(loader, scene, own[from]);
-                if (from == 1) show(loader, scene, own[2]);  // memory
+                SceneLoader loader(stage.renderer, context.registry,
+                                   {.parallel_for = stage.jobs.parallel_for(),
+                                    .cache = {.folder = cache.path()},
+                                    .skip = which == 0});
+                Scene scene = loader.scene("plastic-glossy-red", SceneOptions{});
+                scene.environment = before;
+                visits[from].push_back(visit_environment(stage, loader, scene, environment));
+                if (from == 1) visits[2].push_back(visit_environment(stage, loader, scene, environment));
             }
         }
     }
-    constexpr std::array names{"cold", "disk cache", "memory"};
-    Json json{{"environment", environment}, {"decode_ms", median(decode)}, {"cases", Json::array()}};
-    std::printf("\n%-34s %9s %9s %9s   (decoding alone %.1f ms)\n",
+    stage.renderer.set_reuse(true);
+    return run;
+}
+
+Json bench_switch(BenchStage& stage, const BenchContext& context) {
+    const std::string& environment = context.environments.back();
+    const SwitchRun run = run_switch(stage, context, environment);
+    const double decode = median(run.decode);
+    Json json{{"environment", environment}, {"decode_ms", decode}, {"cases", Json::array()}};
+    std::printf("\n%-34s %9s %9s %9s %9s %9s   (decoding alone %.1f ms)\n",
                 ("environment " + path_to_utf8(utf8_to_path(environment).filename())).c_str(), "light ms",
-                "seen ms", "no skip", median(decode));
-    for (std::size_t from = 0; from < names.size(); ++from) {
-        const double light = median(shown[0][from].light);
-        const double skip = median(shown[0][from].all), all = median(shown[1][from].all);
-        std::printf("%-34s %9.1f %9.1f %9.1f\n", names[from], light, skip, all);
-        json["cases"].push_back(
-            {{"name", names[from]}, {"light_ready_ms", light}, {"skip_ms", skip}, {"no_skip_ms", all}});
+                "drawing", "seen ms", "less draw", "no skip", decode);
+    for (std::size_t from = 0; from < SwitchRun::kNames.size(); ++from) {
+        const auto& own = run.visits[0][from];
+        const double light = median_of(own, [](const Visit& each) { return each.light; });
+        const double drawn = median_of(own, [](const Visit& each) { return each.drawn; });
+        const double seen = median_of(own, [](const Visit& each) { return each.seen; });
+        const double less = median_of(own, [](const Visit& each) { return each.seen - each.drawn; });
+        const double all = median_of(run.visits[1][from], [](const Visit& each) { return each.seen; });
+        std::printf("%-34s %9.1f %9.1f %9.1f %9.1f %9.1f\n", SwitchRun::kNames[from], light, drawn, seen,
+                    less, all);
+        json["cases"].push_back({{"name", SwitchRun::kNames[from]},
+                                 {"light_ready_ms", light},
+                                 {"drawing_ms", drawn},
+                                 {"skip_ms", seen},
+                                 {"skip_less_drawing_ms", less},
+                                 {"no_skip_ms", all}});
     }
     return json;
 }

@@ -95,7 +95,7 @@ void render_shots(const RenderArgs& args, const Registry& registry, const fs::pa
         scene.view = shots[i].scene.view;
         const bool same_surface = args.turn_light && shots.size() > 1;
         const Image image = studio.picture(scene, *target, output.extension() == ".exr",
-                                           same_surface ? Reuse::Expected : Reuse::None);
+                                           same_surface ? Reuse::Standing : Reuse::None);
         exporter.save(shots[i].file, image,
                       described_with(scene.material.name + " under " + args.scene.environments.front(),
                                      shots[i].made_from));
@@ -172,7 +172,7 @@ int run_compare(const RenderArgs& args, const Registry& registry) {
     const TargetHandle target = studio.renderer.make_target(args.scene.size_px);
     // A kept surface takes programs of its own: four columns cost more with it than without (`bench skip`).
     constexpr std::size_t columns_that_pay = 6;
-    const Reuse reuse = args.scene.environments.size() >= columns_that_pay ? Reuse::Expected : Reuse::None;
+    const Reuse reuse = args.scene.environments.size() >= columns_that_pay ? Reuse::Standing : Reuse::None;
     NeededLight needed;  // of the whole sheet, so that each light is baked once
     for (const std::string& preset : args.presets)
         needed = combined(needed, studio.loader.needed_light(preset, args.scene));

@@ -3,11 +3,14 @@
 #include "app/comparison_file.h"
 #include "app/reconcile_load.h"
 #include "app/report_pdf.h"
+#include "materials/json_text.h"
 #include "materials/material_io.h"
 #include "materials/params.h"
 #include "materials/text_io.h"
 #include "renderer/core/file_io.h"
 #include "renderer/core/format.h"
+#include "renderer/core/image_format.h"
+#include "renderer/core/image_io.h"
 
 #include <algorithm>
 #include <span>
@@ -46,6 +49,17 @@ std::string values_text(const MaterialParam& param, const Material& material) {
     std::string text;
     for (const float value : values_of(param, material))
         text += (text.empty() ? "" : ", ") + number(double(value));
+    return text;
+}
+
+/// Of an environment that is a picture: its size, and whom it names.
+std::string about_picture(const fs::path& file) {
+    if (image_format_of_extension(path_text(file.extension())) == ImageFormat::Unknown) return {};
+    const ImageInfo info = load_image_info(file);
+    std::string text = std::to_string(info.width) + "×" + std::to_string(info.height) + " pixels";
+    for (const auto& [key, value] : load_image_metadata(file))
+        for (const char* credit : {"Copyright", "Artist", "owner", "comments"})
+            if (key == credit && !value.empty()) text += "; " + printable(value, 200);
     return text;
 }
 
@@ -283,6 +297,7 @@ ReportSection ComparisonReport::lights() const {
         for (const EnvironmentSource& source : registry_.environments)
             for (const EnvironmentItem& item : source.list())
                 if (item.id == light.environment) about = item.description;
+        if (about.empty()) about = about_picture(utf8_to_path(light.environment));
         std::vector<std::string> cells{shot.light,
                                        path_to_utf8(utf8_to_path(light.environment).filename()),
                                        number(double(light.rotation_deg)) + "°",

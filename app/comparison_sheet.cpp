@@ -225,7 +225,7 @@ const RenderTarget& ComparisonScenes::draw(const Scene& scene, glm::ivec2 size_p
 /// Where it pays to compile for it. One camera and mesh: presets without maps share a surface, and so do the
 /// lightings of each preset.
 Reuse ComparisonScenes::reuse() const {
-    return places_of(comparison_).size() > 2 ? Reuse::Expected : Reuse::None;
+    return places_of(comparison_).size() > 2 ? Reuse::Standing : Reuse::None;
 }
 
 Image ComparisonScenes::radiance(const Scene& scene, glm::ivec2 size_px) {

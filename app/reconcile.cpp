@@ -109,8 +109,9 @@ std::string Reconciler::State::light_key(const std::string& environment,
     environments.visit([&](const std::string& key, const HeldEnvironment& held) {
         if (base_of(key) == base) at_hand.push_back({key, held.light, held.handle});
     });
-    LightWish wish = wish_for_light({.id = environment, .needed = needed, .first_light = options.skip}, base,
-                                    at_hand, options.bake_settings);
+    LightWish wish = wish_for_light(
+        {.id = environment, .needed = needed, .first_light = options.skip, .skip = options.skip}, base,
+        at_hand, options.bake_settings);
     if (wish.order) light_orders[wish.key] = std::move(*wish.order);
     return wish.key;
 }

@@ -3,8 +3,6 @@
 #include "app/reconcile_plan.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace patina {
@@ -22,35 +20,7 @@ std::vector<float> roughness_of(const std::vector<PrefilteredLevel>& levels) {
     return roughness;
 }
 
-/// Rows share their solid angle, 2π (cos θ₀ − cos θ₁).
-glm::vec3 mean_radiance(const Environment& environment) {
-    glm::dvec3 sum(0.0);
-    for (int y = 0; y < environment.height; ++y) {
-        glm::dvec3 row(0.0);
-        for (int x = 0; x < environment.width; ++x)
-            row += glm::dvec3(environment.radiance[std::size_t(y) * environment.width + x]);
-        const double upper = std::cos(std::numbers::pi * y / environment.height);
-        const double lower = std::cos(std::numbers::pi * (y + 1) / environment.height);
-        sum += row * (0.5 * (upper - lower) / environment.width);
-    }
-    return glm::vec3(sum);
-}
-
-float largest_radiance(const Environment& environment) {
-    float largest = 0.0f;
-    for (const glm::vec3& radiance : environment.radiance)
-        largest = std::max({largest, radiance.x, radiance.y, radiance.z});
-    return largest;
-}
-
 CubeMap one_texel(glm::vec3 radiance) { return {1, std::vector<glm::vec3>(6, radiance)}; }
-
-HeldLight describe(const Environment& environment) {
-    HeldLight held{.title = environment.title, .width = environment.width, .height = environment.height};
-    held.max_radiance = largest_radiance(environment);
-    held.mean = mean_radiance(environment);
-    return held;
-}
 
 std::size_t amount(const HeldLight& held) {
     return 2 * held.exact.levels.size() + (held.exact.irradiance.size > 0 ? 1 : 0);
@@ -67,52 +37,84 @@ void add_notes(std::vector<std::string>& notes, const std::vector<std::string>& 
     notes.insert(notes.end(), more.begin(), more.end());
 }
 
-/// The source, where it has to be read, and what it brought along.
-struct Source {
-    std::shared_ptr<const Environment> environment;
-    std::optional<BakedEnvironment> baked;
-};
-
-Source open_source(const Registry& registry, const LightOrder& order) {
-    if (order.held && order.held->environment) return {order.held->environment, std::nullopt};
-    LoadedLight loaded = load_light(registry, order.id);
-    return {std::make_shared<Environment>(std::move(loaded.environment)), std::move(loaded.baked)};
-}
-
-/// What light is made from, and how.
+/// One light, while it is made.
 struct LightTask {
-    const Environment& environment;
+    const Registry& registry;
     const LightOrder& order;
     const BakeSettings& settings;
     const BakeCache& cache;
     BakeControl control;
+    HeldLight held = {};
+    ReadyLight ready = {};
+    std::shared_ptr<const Environment> environment = {};  ///< once it is decoded
+    std::optional<PanoramaLevels> panorama = {};          ///< if it was kept
 };
 
-/// From the disk. False if it is not there.
-bool take_what_is_there(const LightTask& task, HeldLight& held, ReadyLight& ready) {
-    std::optional<BakedEnvironment> entry = load_baked(task.cache, bake_key(task.environment, task.settings));
-    if (task.order.needed) {
-        const BakeSettings wanted = lacking(held, *task.order.needed, task.settings);
-        if (wanted.roughness.empty() && !wanted.irradiance) return true;
-        if (entry) entry = selected(*entry, wanted);
+void decode(LightTask& task) {
+    LoadedLight loaded = load_light(task.registry, task.order.id);
+    task.environment = std::make_shared<Environment>(std::move(loaded.environment));
+    task.ready.decoded = true;
+    if (!loaded.baked || task.order.held) return;
+    task.held.exact = std::move(*loaded.baked);
+    task.held.is_whole = task.ready.from_disk = true;
+}
+
+/// What is known of the source: it is held, was kept, or is decoded.
+void begin(LightTask& task) {
+    HeldLight& held = task.held;
+    ReadyLight& ready = task.ready;
+    if (task.order.held) {
+        held = *task.order.held;
+        task.environment = held.environment;
+        return;
     }
+    const auto fingerprint =
+        task.order.skip ? environment_fingerprint(task.registry, task.order.id) : std::nullopt;
+    if (fingerprint) ready.keep_as = kept_key(task.order.id, *fingerprint);
+    if (std::optional<KeptEnvironment> kept =
+            fingerprint ? load_kept(task.cache, ready.keep_as) : std::nullopt) {
+        held.source = std::move(kept->facts);
+        task.panorama = std::move(kept->panorama);
+        ready.was_kept = true;
+        ready.keep_as.clear();
+    } else {
+        decode(task);
+        held.source = facts_of(*task.environment);
+    }
+    add_notes(ready.notes, held.source.notes);
+    add_notes(ready.notes, held.exact.notes);
+}
+
+/// From the disk. False if it is not there.
+bool take_what_is_there(LightTask& task) {
+    HeldLight& held = task.held;
+    const std::optional<NeededLight>& needed = task.order.needed;
+    const BakeSettings wanted = needed ? lacking(held, *needed, task.settings) : task.settings;
+    if (needed && wanted.roughness.empty() && !wanted.irradiance) return true;
+    const std::string key =
+        bake_key(held.source.content_hash, {held.source.width, held.source.height}, task.settings);
+    std::optional<BakedEnvironment> entry = load_baked(task.cache, key);
+    if (entry && needed) entry = selected(*entry, wanted);
     if (!entry) return false;
-    held.exact = std::move(*entry);
-    ready.from_disk = true;
+    held.exact = merged(held.exact, *entry);
+    task.ready.from_disk = true;
     return true;
 }
 
 /// False if it was stopped.
-bool bake_what_is_missing(const LightTask& task, HeldLight& held, ReadyLight& ready) {
+bool bake_what_is_missing(LightTask& task) {
+    HeldLight& held = task.held;
+    ReadyLight& ready = task.ready;
+    if (!task.environment) decode(task);
     if (task.order.first_light && !task.order.held) {
-        auto coarse = bake_first_light(task.environment, task.settings, task.control);
+        auto coarse = bake_first_light(*task.environment, task.settings, task.control);
         if (!coarse) return false;
         held.coarse = std::move(*coarse);
         ready.is_first_light = true;
         return true;
     }
     const BakeSettings wanted = lacking(held, task.order.needed.value_or(all_light()), task.settings);
-    auto bake = cached_bake(task.environment, wanted, task.control, task.cache);
+    auto bake = cached_bake(*task.environment, wanted, task.control, task.cache);
     if (!bake) return false;
     add_notes(ready.notes, bake->baked.notes);
     if (!bake->note.empty()) ready.notes.push_back(bake->note);
@@ -123,15 +125,18 @@ bool bake_what_is_missing(const LightTask& task, HeldLight& held, ReadyLight& re
     return true;
 }
 
-std::shared_ptr<const PreparedLight> prepare(const HeldLight& held, const Environment& environment,
-                                             const LightOrder& order) {
+std::shared_ptr<const PreparedLight> prepare(LightTask& task) {
     auto light = std::make_shared<PreparedLight>();
-    if (order.drawn)
-        light->panorama_of = order.drawn;
-    else
-        light->panorama = make_panorama_levels(environment);
-    light->levels = make_light_levels(drawn_light(held));
-    if (!held.is_whole) light->levels.sharpest = kSharpestLevel;
+    if (task.order.drawn) {
+        light->panorama_of = task.order.drawn;
+    } else if (task.panorama) {
+        light->panorama = std::move(*task.panorama);
+    } else {
+        if (!task.environment) decode(task);
+        light->panorama = make_panorama_levels(*task.environment);
+    }
+    light->levels = make_light_levels(drawn_light(task.held));
+    if (!task.held.is_whole) light->levels.sharpest = kSharpestLevel;
     return light;
 }
 
@@ -164,9 +169,9 @@ BakedEnvironment drawn_light(const HeldLight& held) {
         std::stable_sort(drawn.levels.begin(), drawn.levels.end(),
                          [](const auto& a, const auto& b) { return a.roughness < b.roughness; });
     }
-    if (drawn.levels.empty()) drawn.levels = {{kSharpestLevel, one_texel(held.mean)}};
+    if (drawn.levels.empty()) drawn.levels = {{kSharpestLevel, one_texel(held.source.mean)}};
     if (drawn.irradiance.size == 0) drawn.irradiance = held.coarse.irradiance;
-    if (drawn.irradiance.size == 0) drawn.irradiance = one_texel(held.mean);
+    if (drawn.irradiance.size == 0) drawn.irradiance = one_texel(held.source.mean);
     return drawn;
 }
 
@@ -187,27 +192,31 @@ LightWish wish_for_light(LightOrder order, const std::string& base, const std::v
 std::optional<ReadyLight> get_light(const Registry& registry, const LightOrder& order,
                                     const BakeSettings& settings, const BakeCache& cache,
                                     const BakeControl& control) {
-    Source source = open_source(registry, order);
+    LightTask task{registry, order, settings, cache, control};
+    task.control.progress = [&](float fraction) { control.progress(kDecodeShare + kBakeShare * fraction); };
+    begin(task);
     if (control.stop.stop_requested()) return std::nullopt;
     control.progress(kDecodeShare);
-    const Environment& environment = *source.environment;
-    HeldLight held = order.held ? *order.held : describe(environment);
-    ReadyLight ready;
-    if (!order.held) add_notes(ready.notes, environment.notes);
-    LightTask task{environment, order, settings, cache, control};
-    task.control.progress = [&](float fraction) { control.progress(kDecodeShare + kBakeShare * fraction); };
-    if (source.baked) {
-        held.exact = std::move(*source.baked);
-        held.is_whole = ready.from_disk = true;
-        add_notes(ready.notes, held.exact.notes);
-    } else if (order.held || !take_what_is_there(task, held, ready)) {
-        if (!bake_what_is_missing(task, held, ready)) return std::nullopt;
-    }
+    // With the texels of what is held at hand, baking looks on the disk itself.
+    const bool is_there =
+        task.held.is_whole || ((!order.held || !task.environment) && take_what_is_there(task));
+    if (!is_there && !bake_what_is_missing(task)) return std::nullopt;
     if (control.stop.stop_requested()) return std::nullopt;
-    ready.light = prepare(held, environment, order);
-    if (!held.is_whole && environment.radiance.size() <= kKeptTexels) held.environment = source.environment;
-    ready.held = std::make_shared<HeldLight>(std::move(held));
+    ReadyLight ready = std::move(task.ready);
+    ready.light = prepare(task);
+    const bool is_small = task.environment && task.environment->radiance.size() <= kKeptTexels;
+    if (!task.held.is_whole && is_small) task.held.environment = task.environment;
+    ready.held = std::make_shared<HeldLight>(std::move(task.held));
     return ready;
+}
+
+std::string keep_light(const Registry& registry, const LightOrder& order, const ReadyLight& ready,
+                       const PreparedLight& light, const BakeCache& cache) {
+    if (ready.keep_as.empty()) return {};
+    const auto now = environment_fingerprint(registry, order.id);
+    if (!now || kept_key(order.id, *now) != ready.keep_as)
+        return order.id + " was changed while it was read.";
+    return save_kept(cache, ready.keep_as, ready.held->source, light.panorama);
 }
 
 std::uint64_t bytes_of(const HeldLight& held) {

@@ -5,6 +5,7 @@
 // nearest there is, at first by a first light of few degrees.
 #pragma once
 
+#include "app/kept_environment.h"
 #include "app/registry.h"
 #include "renderer/ibl/cache.h"
 #include "renderer/needed_light.h"
@@ -19,14 +20,11 @@
 namespace patina {
 
 struct HeldLight {
-    std::string title;
-    int width = 0, height = 0;  ///< of the source
-    float max_radiance = 0.0f;
-    glm::vec3 mean{0.0f};                            ///< radiance over the sphere
+    EnvironmentFacts source;
     BakedEnvironment exact;                          ///< levels and irradiance as they were asked for
     BakedEnvironment coarse;                         ///< first light; empty where there was no need for one
     bool is_whole = false;                           ///< the source came with its levels: there are no others
-    std::shared_ptr<const Environment> environment;  ///< for adding levels; none where it is read again
+    std::shared_ptr<const Environment> environment;  ///< for adding levels; none where it is decoded again
 };
 
 /// True if everything needed is exact.
@@ -43,6 +41,7 @@ struct LightOrder {
     std::shared_ptr<const HeldLight> held = {};  ///< to be added to; none: nothing is there
     EnvironmentHandle drawn = {};                ///< held's, whose panorama is used again
     bool first_light = false;  ///< where nothing is held or on disk, a first light is enough for now
+    bool skip = true;          ///< false: decodes what lies on disk ready for use, for comparison
 };
 
 /// Light of one environment that is there already.
@@ -65,6 +64,9 @@ struct ReadyLight {
     std::shared_ptr<const HeldLight> held;
     std::shared_ptr<const PreparedLight> light;
     bool from_disk = false;  ///< something was, and nothing had to be baked
+    bool decoded = false;    ///< the source was
+    bool was_kept = false;   ///< the panorama lay on disk, ready for use
+    std::string keep_as;     ///< for keep_light; empty: it is there, or what it stands for cannot be told
     bool is_first_light = false;
     int levels_baked = 0;
     bool irradiance_baked = false;
@@ -75,6 +77,11 @@ struct ReadyLight {
 std::optional<ReadyLight> get_light(const Registry& registry, const LightOrder& order,
                                     const BakeSettings& settings, const BakeCache& cache,
                                     const BakeControl& control);
+
+/// Keeps what was decoded for the next time, unless the source was changed meanwhile. Empty, or a sentence
+/// that says why it could not be kept. light: ready's.
+std::string keep_light(const Registry& registry, const LightOrder& order, const ReadyLight& ready,
+                       const PreparedLight& light, const BakeCache& cache);
 
 /// In memory, textures and what is kept beside them.
 std::uint64_t bytes_of(const HeldLight& held);

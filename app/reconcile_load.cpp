@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 
 namespace patina {
@@ -65,52 +66,85 @@ ReadyMap load_map(const Registry& registry, const MapRequest& request) {
     std::error_code ignored;
     if (!fs::exists(file, ignored))
         throw std::runtime_error(request.file + ": there is no such file; put it back or locate it.");
-    // Numbers may be averaged by the decoder; colours are averaged as light, normals with their spread.
-    LoadedImage loaded =
-        import_image(registry, file, request.kind == MapKind::Data ? request.finest_side : 0);
-    ReadyMap ready{.width = std::max(loaded.whole_width, loaded.image.width),
-                   .height = std::max(loaded.whole_height, loaded.image.height),
-                   .channels = loaded.image.channels,
-                   .bits = bits_of(loaded.image.type),
-                   .notes = std::move(loaded.notes)};
+    MapMaker maker(request.kind, request.color_space, request.finest_side);
+    SmallPicture small(kThumbnailPx,
+                       request.kind == MapKind::Color && request.color_space == ColorSpace::Linear);
+    ReadyMap ready;
+    ready.notes = import_image_rows(registry, file,
+                                    {.begin =
+                                         [&](const Image& shape) {
+                                             maker.begin(shape);
+                                             small.begin(shape);
+                                         },
+                                     .row =
+                                         [&](const std::byte* row) {
+                                             maker.row(row);
+                                             small.row(row);
+                                         }});
+    const Image shape = maker.shape();
+    ready.width = shape.width;
+    ready.height = shape.height;
+    ready.channels = shape.channels;
+    ready.bits = bits_of(shape.type);
     const auto bytes = fs::file_size(file, ignored);
     ready.file_bytes = ignored ? 0 : bytes;
-    const bool linear_color = request.kind == MapKind::Color && request.color_space == ColorSpace::Linear;
-    ready.thumbnail = small_picture(loaded.image, kThumbnailPx, linear_color);
-    auto levels = std::make_shared<MapLevels>(
-        make_map_levels(loaded.image, request.kind, request.color_space, request.finest_side));
+    ready.thumbnail = small.take();
+    count_reading(ready.work, maker);
+    auto levels = std::make_shared<MapLevels>(maker.take());
     ready.is_whole = levels->levels[0].width == ready.width && levels->levels[0].height == ready.height;
     ready.ranges = channel_ranges(*levels);
     if (request.finest_side > 0) keep_one_texel_of_constant(*levels, ready.ranges);
-    count_map(ready.work, loaded.image, *levels);
+    count_upload(ready.work, *levels);
     ready.levels = std::move(levels);
     return ready;
 }
 
+void SmallPicture::begin(const Image& shape) {
+    const float shrink = std::max(1.0f, float(std::max(shape.width, shape.height)) / float(max_side_));
+    small_ = make_image(std::max(1, int(std::lround(float(shape.width) / shrink))),
+                        std::max(1, int(std::lround(float(shape.height) / shrink))), 3, PixelType::U8);
+    samples_ = shrink > 1.0f ? kSamplesPerSide : 1;
+    row_ = make_image(shape.width, 1, shape.channels, shape.type);
+    height_ = shape.height;
+    sums_.assign(std::size_t(small_.width) * 3, 0.0f);
+}
+
+/// The picture's row that a row of samples is taken from.
+int SmallPicture::source_row(int sample) const {
+    const float v = (float(sample) + 0.5f) / float(samples_ * small_.height);
+    return std::min(int(v * float(height_)), height_ - 1);
+}
+
+void SmallPicture::row(const std::byte* row) {
+    const int last = samples_ * small_.height;
+    if (sample_ < last && source_row(sample_) == row_at_) {
+        std::memcpy(row_.bytes.data(), row, row_.bytes.size());
+        while (sample_ < last && source_row(sample_) == row_at_) add_row();
+    }
+    ++row_at_;
+}
+
+void SmallPicture::add_row() {
+    for (int x = 0; x < small_.width; ++x)
+        for (int i = 0; i < samples_; ++i) {
+            const float u = (float(x * samples_ + i) + 0.5f) / float(samples_ * small_.width);
+            const int from = std::min(int(u * float(row_.width)), row_.width - 1);
+            for (int c = 0; c < 3; ++c) sums_[3 * x + c] += texel(row_, from, 0, row_.channels < 3 ? 0 : c);
+        }
+    if (++sample_ % samples_ != 0) return;
+    for (int x = 0; x < small_.width; ++x)
+        for (int c = 0; c < 3; ++c) {
+            const float value = sums_[3 * x + c] / float(samples_ * samples_);
+            set_texel(small_, x, sample_ / samples_ - 1, c, linear_ ? linear_to_srgb(value) : value);
+        }
+    std::fill(sums_.begin(), sums_.end(), 0.0f);
+}
+
 Image small_picture(const Image& image, int max_side, bool linear) {
-    const float shrink = std::max(1.0f, float(std::max(image.width, image.height)) / float(max_side));
-    const int width = std::max(1, int(std::lround(float(image.width) / shrink)));
-    const int height = std::max(1, int(std::lround(float(image.height) / shrink)));
-    Image small = make_image(width, height, 3, PixelType::U8);
-    const int samples = shrink > 1.0f ? kSamplesPerSide : 1;
-    const auto sample = [&](int x, int y, int channel) {
-        float sum = 0.0f;
-        for (int j = 0; j < samples; ++j)
-            for (int i = 0; i < samples; ++i) {
-                const float u = (float(x) + (float(i) + 0.5f) / float(samples)) / float(width);
-                const float v = (float(y) + (float(j) + 0.5f) / float(samples)) / float(height);
-                sum += texel(image, std::min(int(u * float(image.width)), image.width - 1),
-                             std::min(int(v * float(image.height)), image.height - 1), channel);
-            }
-        return sum / float(samples * samples);
-    };
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            for (int c = 0; c < 3; ++c) {
-                const float value = sample(x, y, image.channels < 3 ? 0 : c);
-                set_texel(small, x, y, c, linear ? linear_to_srgb(value) : value);
-            }
-    return small;
+    SmallPicture small(max_side, linear);
+    give_rows(image, {.begin = [&](const Image& shape) { small.begin(shape); },
+                      .row = [&](const std::byte* row) { small.row(row); }});
+    return small.take();
 }
 
 Image small_panorama(const Environment& environment, int width) {

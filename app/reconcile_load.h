@@ -7,6 +7,7 @@
 #include "renderer/map_range.h"
 #include "renderer/renderer.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -44,6 +45,28 @@ ReadyMap load_map(const Registry& registry, const MapRequest& request);
 
 /// Any picture as a small one to look at: 3 channels of 8 bits. linear: its values are light and get encoded.
 Image small_picture(const Image& image, int max_side, bool linear);
+/// The same from rows.
+class SmallPicture {
+public:
+    SmallPicture(int max_side, bool linear) : max_side_(max_side), linear_(linear) {}
+    void begin(const Image& shape);  ///< once, first; its bytes do not matter
+    void row(const std::byte* row);  ///< each of the picture's, from the top
+    std::uint64_t bytes_read() const { return std::uint64_t(row_at_) * row_.bytes.size(); }
+    Image take() { return std::move(small_); }  ///< once, after the last row
+
+private:
+    int source_row(int sample) const;
+    void add_row();
+
+    int max_side_;
+    bool linear_;
+    int samples_ = 1;  ///< a side, of each pixel
+    Image row_;        ///< of the picture
+    int height_ = 0, row_at_ = 0;
+    Image small_;
+    std::vector<float> sums_;  ///< of the row of small_ that samples are added to
+    int sample_ = 0;           ///< next row of samples
+};
 /// A panorama, tone-mapped, width × width/2.
 Image small_panorama(const Environment& environment, int width);
 

@@ -169,6 +169,7 @@ Jobs::Id Reconciler::State::start_environment(const std::string& key) {
             files_read.emplace_back(id_of(key), *stamp);
             count_light(order, *ready);
             patina::count_light(renderer.work(), order, *ready);
+            keep(order, *ready);
             const std::uint64_t bytes = bytes_of(*ready->light) + bytes_of(*ready->held);
             expect(environments, key, ready, std::exchange(ready->light, nullptr),
                    [this, key, bytes](const ReadyLight& light, EnvironmentHandle handle) {
@@ -178,6 +179,17 @@ Jobs::Id Reconciler::State::start_environment(const std::string& key) {
     };
     return jobs.start((order.held ? "Adding light of " : "Baking ") + short_name(order.id), work,
                       when_failed(environments, key, stamp));
+}
+
+/// What was decoded, for the next time: beside the picture, which does not wait for it.
+void Reconciler::State::keep(const LightOrder& order, const ReadyLight& ready) const {
+    if (ready.keep_as.empty()) return;
+    const auto box = std::make_shared<ReadyLight>(ready);
+    jobs.start("", [this, order, box](JobContext&) -> Jobs::Done {
+        keep_light(registry, order, *box, *box->light, options.bakes);
+        box->light.reset();  // here, for the same reason as in let_go
+        return {};
+    });
 }
 
 void Reconciler::State::count_light(const LightOrder& order, const ReadyLight& ready) {
@@ -193,10 +205,10 @@ void Reconciler::State::count_light(const LightOrder& order, const ReadyLight& r
 void Reconciler::State::take_light(const std::string& key, const ReadyLight& light, EnvironmentHandle handle,
                                    std::uint64_t bytes) {
     HeldEnvironment held{.handle = std::move(handle), .light = light.held};
-    held.info = {.title = light.held->title,
-                 .width = light.held->width,
-                 .height = light.held->height,
-                 .max_radiance = light.held->max_radiance,
+    held.info = {.title = light.held->source.title,
+                 .width = light.held->source.width,
+                 .height = light.held->source.height,
+                 .max_radiance = light.held->source.max_radiance,
                  .notes = light.notes};
     std::vector<std::string> less;  // of the same light
     const std::string base = base_of(key);

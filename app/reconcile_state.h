@@ -96,6 +96,7 @@ struct Reconciler::State {
     void finish_map(const std::string& key, HeldMap held, std::uint64_t bytes);
     Jobs::Id start_mesh(const std::string& key);
     Jobs::Id start_environment(const std::string& key);
+    void keep(const LightOrder& order, const ReadyLight& ready) const;
     void count_light(const LightOrder& order, const ReadyLight& ready);
     void take_light(const std::string& key, const ReadyLight& light, EnvironmentHandle handle,
                     std::uint64_t bytes);

@@ -32,7 +32,8 @@ EnvironmentSource builtin_environment_source() {
                     return items;
                 },
             .accepts = [find](const std::string& id) { return find(id) != builtin_environments().end(); },
-            .load = [find](const std::string& id) { return find(id)->make(kBuiltinEnvironmentWidth); }};
+            .load = [find](const std::string& id) { return find(id)->make(kBuiltinEnvironmentWidth); },
+            .fingerprint = [](const std::string&) { return std::optional<std::uint64_t>(0); }};
 }
 
 EnvironmentSource blender_environment_source() {
@@ -57,7 +58,9 @@ EnvironmentSource blender_environment_source() {
                     Environment environment = load_environment_file(find(id).value().file);
                     environment.id = id;
                     return environment;
-                }};
+                },
+            .fingerprint =
+                [find](const std::string& id) { return environment_file_hash(find(id).value().file); }};
 }
 
 EnvironmentSource bake_environment_source() {
@@ -74,7 +77,8 @@ EnvironmentSource file_environment_source() {
             .description = "Equirectangular pictures: Radiance .hdr, OpenEXR .exr, or any other picture",
             .list = [] { return std::vector<EnvironmentItem>{}; },
             .accepts = [](const std::string& id) { return id.find_first_of("./\\") != std::string::npos; },
-            .load = [](const std::string& id) { return load_environment_file(utf8_to_path(id)); }};
+            .load = [](const std::string& id) { return load_environment_file(utf8_to_path(id)); },
+            .fingerprint = [](const std::string& id) { return environment_file_hash(utf8_to_path(id)); }};
 }
 
 std::string extension_of(const fs::path& file) {
@@ -107,25 +111,28 @@ Registry builtin_parts() {
     Registry registry;
     registry.environments = {builtin_environment_source(), blender_environment_source(),
                              bake_environment_source(), file_environment_source()};
-    registry.image_importers = {
-        {.name = "png", .description = "Pictures through libpng", .extensions = {"png"}, .load = load_image},
-        {.name = "openexr",
-         .description = "Scene-linear pictures through OpenEXR",
-         .extensions = {"exr"},
-         .load = load_image},
-        {.name = "jpeg",
-         .description = "Pictures through libjpeg",
-         .extensions = {"jpg", "jpeg"},
-         .load = load_image,
-         .load_reduced = load_image_reduced},
-        {.name = "radiance",
-         .description = "Radiance pictures",
-         .extensions = {"hdr", "pic"},
-         .load = load_image},
-        {.name = "openimageio",
-         .description = "Pictures through OpenImageIO, loaded when first needed",
-         .extensions = {"tif", "tiff", "tga", "bmp"},
-         .load = load_image}};
+    registry.image_importers = {{.name = "png",
+                                 .description = "Pictures through libpng",
+                                 .extensions = {"png"},
+                                 .load = load_image,
+                                 .load_rows = load_image_rows},
+                                {.name = "openexr",
+                                 .description = "Scene-linear pictures through OpenEXR",
+                                 .extensions = {"exr"},
+                                 .load = load_image},
+                                {.name = "jpeg",
+                                 .description = "Pictures through libjpeg",
+                                 .extensions = {"jpg", "jpeg"},
+                                 .load = load_image,
+                                 .load_rows = load_image_rows},
+                                {.name = "radiance",
+                                 .description = "Radiance pictures",
+                                 .extensions = {"hdr", "pic"},
+                                 .load = load_image},
+                                {.name = "openimageio",
+                                 .description = "Pictures through OpenImageIO, loaded when first needed",
+                                 .extensions = {"tif", "tiff", "tga", "bmp"},
+                                 .load = load_image}};
     registry.mesh_importers = {{.name = "openmesh",
                                 .description = "Meshes through OpenMesh",
                                 .extensions = {"obj", "ply", "off", "stl"},
@@ -191,6 +198,11 @@ LoadedLight load_light(const Registry& registry, const std::string& id) {
     return {std::move(light.environment), std::move(light.baked)};
 }
 
+std::optional<std::uint64_t> environment_fingerprint(const Registry& registry, const std::string& id) {
+    const EnvironmentSource& source = environment_source(registry, id);
+    return source.fingerprint ? source.fingerprint(id) : std::nullopt;
+}
+
 std::string environment_title(const Registry& registry, const std::string& id) {
     for (const EnvironmentSource& source : registry.environments)
         for (const EnvironmentItem& item : source.list())
@@ -213,11 +225,27 @@ Mesh load_mesh_part(const Registry& registry, const std::string& id, const std::
                              ", or a file that ends in " + either(extensions));
 }
 
-LoadedImage import_image(const Registry& registry, const fs::path& file, int least_side) {
-    // An unknown extension goes to the first importer, which judges by content.
+namespace {
+
+/// An unknown extension goes to the first importer, which judges by content.
+const ImageImporter& image_importer(const Registry& registry, const fs::path& file) {
     const ImageImporter* importer = part_for(registry.image_importers, file);
-    const ImageImporter& chosen = importer ? *importer : registry.image_importers.front();
-    return least_side > 0 && chosen.load_reduced ? chosen.load_reduced(file, least_side) : chosen.load(file);
+    return importer ? *importer : registry.image_importers.front();
+}
+
+}  // namespace
+
+LoadedImage import_image(const Registry& registry, const fs::path& file) {
+    return image_importer(registry, file).load(file);
+}
+
+std::vector<std::string> import_image_rows(const Registry& registry, const fs::path& file,
+                                           const ImageRows& rows) {
+    const ImageImporter& importer = image_importer(registry, file);
+    if (importer.load_rows) return importer.load_rows(file, rows);
+    LoadedImage loaded = importer.load(file);
+    give_rows(loaded.image, rows);
+    return std::move(loaded.notes);
 }
 
 const ImageExporter& image_exporter(const Registry& registry, const fs::path& file) {

@@ -9,6 +9,7 @@
 #include "renderer/ibl/bake.h"
 #include "ui/panel_context.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -38,6 +39,9 @@ struct EnvironmentSource {
     std::function<Environment(const std::string& id)> load;
     std::function<BakedLight(const std::string& id)> load_baked =
         {};  ///< instead of load, where the source bakes
+    /// Tells the contents of an id from others it may have at another time, without decoding them; nullopt,
+    /// or no function, where that cannot be known.
+    std::function<std::optional<std::uint64_t>(const std::string& id)> fingerprint = {};
 };
 
 /// extensions: lower case, without the dot. load throws std::runtime_error with one sentence that names the
@@ -47,8 +51,8 @@ struct ImageImporter {
     std::string description;
     std::vector<std::string> extensions;
     std::function<LoadedImage(const std::filesystem::path&)> load;
-    /// May give it smaller, no side shorter than that; may be empty.
-    std::function<LoadedImage(const std::filesystem::path&, int least_side)> load_reduced = {};
+    /// The same row by row, and the notes; may be empty.
+    std::function<std::vector<std::string>(const std::filesystem::path&, const ImageRows&)> load_rows = {};
 };
 struct MeshImporter {
     std::string name;
@@ -97,10 +101,15 @@ struct LoadedLight {
     std::optional<BakedEnvironment> baked;
 };
 LoadedLight load_light(const Registry& registry, const std::string& id);
+/// As EnvironmentSource::fingerprint.
+std::optional<std::uint64_t> environment_fingerprint(const Registry& registry, const std::string& id);
 /// By id ("sphere") or file path; likewise.
 Mesh load_mesh_part(const Registry& registry, const std::string& id, const std::stop_token& stop = {});
 /// By the file's extension; likewise.
-LoadedImage import_image(const Registry& registry, const std::filesystem::path& file, int least_side = 0);
+LoadedImage import_image(const Registry& registry, const std::filesystem::path& file);
+/// The same row by row, as load_image_rows.
+std::vector<std::string> import_image_rows(const Registry& registry, const std::filesystem::path& file,
+                                           const ImageRows& rows);
 
 /// The exporter of the file's extension; throws std::runtime_error that names what there is, before anything
 /// is computed.

@@ -26,13 +26,20 @@ std::vector<MapSource> map_sources(const Material& material, const fs::path& pre
     return sources;
 }
 
-LoadedImage load_map(const Registry& registry, const MapSource& source, int finest_side) {
+namespace {
+
+void require_file(const MapSource& source) {
     if (source.file.empty())
         throw std::runtime_error(
             "the map '" + source.text +
             "' is a web address, which is never fetched; save the picture beside the preset");
-    // Numbers may be averaged by the decoder; colours are averaged as light, normals with their spread.
-    return import_image(registry, source.file, source.kind == MapKind::Data ? finest_side : 0);
+}
+
+}  // namespace
+
+LoadedImage load_map(const Registry& registry, const MapSource& source) {
+    require_file(source);
+    return import_image(registry, source.file);
 }
 
 namespace {
@@ -59,23 +66,40 @@ FoundMaterial material_of(const std::string& preset, const SceneOptions& options
 SceneLoader::SceneLoader(Renderer& renderer, const Registry& registry, Options options)
     : renderer_(renderer), registry_(registry), options_(std::move(options)) {}
 
+namespace {
+
+/// What it serves, without its texels: they are on the GPU, and in the cache folder.
+std::shared_ptr<const HeldLight> without_texels(const HeldLight& held) {
+    auto light = std::make_shared<HeldLight>();
+    light->is_whole = held.is_whole;
+    light->exact.irradiance.size = held.exact.irradiance.size;
+    for (const PrefilteredLevel& level : held.exact.levels)
+        light->exact.levels.push_back({.roughness = level.roughness, .cube = {.size = level.cube.size}});
+    return light;
+}
+
+}  // namespace
+
 EnvironmentHandle SceneLoader::environment(const std::string& id, const NeededLight& needed) {
     Light& light = lights_[id];
-    const NeededLight wanted = options_.skip ? needed : all_light();
+    const NeededLight wanted = options_.skip ? combined(light.needed, needed) : all_light();
     if (light.held && serves(*light.held, wanted)) return light.handle;
+    light.needed = wanted;
     options_.progress("loading " + id, 0.0f);
     const BakeControl control{
         .parallel_for = options_.parallel_for,
         .progress = [&](float fraction) { options_.progress("baking " + id, fraction); },
         .stop = {}};
-    const LightOrder order{.id = id, .needed = wanted, .held = light.held, .drawn = light.handle};
+    const LightOrder order{.id = id, .needed = wanted, .skip = options_.skip};
     const std::optional<ReadyLight> ready =
         get_light(registry_, order, drawing_bake_settings(), options_.cache, control);
     if (!ready) throw std::runtime_error(id + ": the bake was stopped");
     for (const std::string& note : ready->notes) options_.note(id + ": " + note);
     count_light(renderer_.work(), order, *ready);
-    light.held = ready->held;
-    return light.handle = Renderer::begin_upload(ready->light).finish();
+    light.held = options_.skip ? without_texels(*ready->held) : ready->held;
+    light.handle = Renderer::begin_upload(ready->light).finish();
+    keep_light(registry_, order, *ready, *ready->light, options_.cache);
+    return light.handle;
 }
 
 MeshHandle SceneLoader::mesh(const std::string& id, bool with_tangents) {
@@ -95,6 +119,37 @@ SceneLoader::LoadedMesh& SceneLoader::loaded_mesh(const std::string& id, bool wi
     return loaded;
 }
 
+/// Row by row; whole where nothing is to be skipped.
+MapLevels SceneLoader::read_levels(const MapSource& source, int side) {
+    require_file(source);
+    MapMaker maker(source.kind, source.color_space, side);
+    const ImageRows rows{.begin = [&](const Image& shape) { maker.begin(shape); },
+                         .row = [&](const std::byte* row) { maker.row(row); }};
+    LoadedImage whole;
+    if (options_.skip) {
+        whole.notes = import_image_rows(registry_, source.file, rows);
+    } else {
+        whole = import_image(registry_, source.file);
+        give_rows(whole.image, rows);
+    }
+    for (const std::string& note : whole.notes)
+        options_.note(path_to_utf8(source.file.filename()) + ": " + note);
+    count_reading(renderer_.work(), maker, whole.image.bytes.size());
+    return maker.take();
+}
+
+MapLevels SceneLoader::read_map(const MapSource& source, const std::string& preset, int side) {
+    try {
+        return read_levels(source, side);
+    } catch (const std::runtime_error& error) {
+        if (!options_.allow_missing_maps)
+            throw std::runtime_error(preset + ": " + error.what() +
+                                     " (--allow-missing-maps draws a checkerboard in its place)");
+        options_.note(preset + ": " + error.what());
+        return make_map_levels(make_placeholder_map(), source.kind, source.color_space, side);
+    }
+}
+
 const SceneLoader::Map& SceneLoader::map(const MapSource& source, const std::string& preset, int side) {
     const int slot = options_.skip ? -1 : int(source.slot);
     Map& map = maps_[{path_to_utf8(source.file), source.kind, source.color_space, slot}];
@@ -104,22 +159,10 @@ const SceneLoader::Map& SceneLoader::map(const MapSource& source, const std::str
     }
     const std::string name = path_to_utf8(source.file.filename());
     options_.progress("loading " + name, 0.0f);
-    LoadedImage loaded;
-    try {
-        loaded = load_map(registry_, source, side);
-    } catch (const std::runtime_error& error) {
-        if (!options_.allow_missing_maps)
-            throw std::runtime_error(preset + ": " + error.what() +
-                                     " (--allow-missing-maps draws a checkerboard in its place)");
-        options_.note(preset + ": " + error.what());
-        loaded.image = make_placeholder_map();
-    }
-    for (const std::string& note : loaded.notes) options_.note(name + ": " + note);
-    MapLevels levels = make_map_levels(loaded.image, source.kind, source.color_space, side);
+    MapLevels levels = read_map(source, preset, side);
     map.ranges = channel_ranges(levels);
     if (options_.skip) keep_one_texel_of_constant(levels, map.ranges);
-    count_map(renderer_.work(), loaded.image, levels);
-    loaded.image = {};
+    count_upload(renderer_.work(), levels);
     map.side = side;
     map.handle = renderer_.upload_map(levels);
     if (const std::string& note = Renderer::note_of(*map.handle); !note.empty())

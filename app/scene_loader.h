@@ -29,8 +29,7 @@ struct MapSource {
 /// One row a slot that names a map. preset_file is what relative paths are relative to.
 std::vector<MapSource> map_sources(const Material& material, const std::filesystem::path& preset_file);
 /// Decodes it; throws std::runtime_error with one sentence that names the map.
-/// finest_side: as make_map_levels takes it; the picture may come smaller, but no smaller than that.
-LoadedImage load_map(const Registry& registry, const MapSource& source, int finest_side = 0);
+LoadedImage load_map(const Registry& registry, const MapSource& source);
 
 class SceneLoader {
 public:
@@ -57,6 +56,7 @@ public:
 
 private:
     struct Light {
+        NeededLight needed;  ///< by all that asked for it
         std::shared_ptr<const HeldLight> held;
         EnvironmentHandle handle;
     };
@@ -71,6 +71,8 @@ private:
     };
     LoadedMesh& loaded_mesh(const std::string& id, bool with_tangents);
     const Map& map(const MapSource& source, const std::string& preset, int side);
+    MapLevels read_map(const MapSource& source, const std::string& preset, int side);
+    MapLevels read_levels(const MapSource& source, int side);
 
     Renderer& renderer_;
     const Registry& registry_;

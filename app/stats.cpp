@@ -42,7 +42,8 @@ void count_bake(WorkLedger& work, const BakedEnvironment& baked) {
 
 void count_light(WorkLedger& work, const LightOrder& order, const ReadyLight& ready) {
     const bool is_baked = ready.levels_baked > 0 || ready.irradiance_baked;
-    if (!order.held || !order.held->environment) ++work.environments_decoded;
+    work.environments_decoded += ready.decoded ? 1 : 0;
+    work.environments_from_disk += ready.was_kept ? 1 : 0;
     work.bakes_from_disk += ready.from_disk ? 1 : 0;
     work.first_lights += ready.is_first_light ? 1 : 0;
     work.sphere_transforms += is_baked ? 1 : 0;
@@ -59,11 +60,17 @@ void count_light(WorkLedger& work, const LightOrder& order, const ReadyLight& re
         skip(work, "further roughness levels", "the material does not reach them");
 }
 
-void count_map(WorkLedger& work, const Image& decoded, const MapLevels& uploaded) {
+void count_reading(WorkLedger& work, const MapMaker& maker, std::uint64_t beside) {
+    const Image& shape = maker.shape();
     ++work.maps_decoded;
-    work.map_bytes_decoded += decoded.bytes.size();
+    work.map_bytes_decoded += std::uint64_t(shape.width) * std::uint64_t(shape.height) *
+                              std::uint64_t(shape.channels) * bytes_per_channel(shape.type);
+    work.map_bytes_held += maker.bytes() + beside;
+}
+
+void count_upload(WorkLedger& work, const MapLevels& map) {
     ++work.maps_uploaded;
-    work.map_bytes_uploaded += bytes_of(uploaded);
+    work.map_bytes_uploaded += bytes_of(map);
 }
 
 void count_mesh(WorkLedger& work, const Mesh& mesh, bool tangents) {

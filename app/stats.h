@@ -20,8 +20,11 @@ namespace patina {
 void count_bake(WorkLedger& work, const BakedEnvironment& baked);
 /// Light that a picture asked for, with what it did not need.
 void count_light(WorkLedger& work, const LightOrder& order, const ReadyLight& ready);
-/// A picture that became a map on the GPU.
-void count_map(WorkLedger& work, const Image& decoded, const MapLevels& uploaded);
+/// A picture that was read for a map, by maker, before it hands the map over. beside: bytes of it that were
+/// in memory, too.
+void count_reading(WorkLedger& work, const MapMaker& maker, std::uint64_t beside = 0);
+/// A map on the GPU.
+void count_upload(WorkLedger& work, const MapLevels& map);
 /// A mesh on the GPU; tangents: they were made for it.
 void count_mesh(WorkLedger& work, const Mesh& mesh, bool tangents);
 std::uint64_t bytes_of(const MapLevels& map);

@@ -182,10 +182,17 @@ void Thumbnails::State::start(const Key& key) {
                 find_mesh_picture(registry, options.folder, id, *found);
                 break;
             case Kind::Picture: {
-                const Image image = import_image(registry, utf8_to_path(id)).image;
+                std::optional<SmallPicture> small;
+                import_image_rows(registry, utf8_to_path(id),
+                                  {.begin =
+                                       [&](const Image& shape) {
+                                           small.emplace(kThumbnailPx, shape.type == PixelType::F32);
+                                           small->begin(shape);
+                                       },
+                                   .row = [&](const std::byte* row) { small->row(row); }});
                 ++found->work.maps_decoded;
-                found->work.map_bytes_decoded += image.bytes.size();
-                found->picture = small_picture(image, kThumbnailPx, image.type == PixelType::F32);
+                found->work.map_bytes_decoded += small->bytes_read();
+                found->picture = small->take();
                 break;
             }
         }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -40,16 +41,6 @@ std::size_t utf8_length(std::string_view text) {
     const bool in_plane = (byte(0) == 0xF0 && byte(1) >= 0x90) || (byte(0) >= 0xF1 && byte(0) <= 0xF3) ||
                           (byte(0) == 0xF4 && byte(1) <= 0x8F);
     return in_plane && continues(1) && continues(2) && continues(3) ? 4 : 0;
-}
-
-/// At most that many bytes of it, never half a character.
-std::string shortened(std::string text) {
-    static constexpr std::size_t readable = 60;
-    if (text.size() <= readable) return text;
-    text.resize(readable);
-    while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.pop_back();
-    if (!text.empty() && (static_cast<unsigned char>(text.back()) & 0x80) != 0) text.pop_back();
-    return text + "…";
 }
 
 /// nlohmann's message without its number, its own idea of the place and the raw bytes it last read.
@@ -90,8 +81,7 @@ public:
         if (object.contains(key)) repeated_keys_.push_back(pointer_to(pointer(), key));
         if (object.size() >= kMaxJsonMembers)
             throw std::runtime_error(name_ + ": " + where() + " has more than " +
-                                     std::to_string(kMaxJsonMembers) +
-                                     " keys; this is not a material preset.");
+                                     std::to_string(kMaxJsonMembers) + " keys; Patina writes no such file.");
         key_ = key;
         return true;
     }
@@ -130,8 +120,7 @@ private:
     bool open(Json value) {
         if (open_.size() >= kMaxJsonDepth)
             throw std::runtime_error(name_ + ": " + where() + " is nested deeper than " +
-                                     std::to_string(kMaxJsonDepth) +
-                                     " levels; this is not a material preset.");
+                                     std::to_string(kMaxJsonDepth) + " levels; Patina writes no such file.");
         const bool in_object = !open_.empty() && open_.back()->is_object();
         keys_.push_back(in_object       ? pointer_to("", key_)
                         : open_.empty() ? ""
@@ -151,7 +140,7 @@ private:
     }
     std::string where() const {
         const std::string text = pointer();
-        return text.empty() ? "the document" : shortened(text);
+        return text.empty() ? "the document" : printable(text, 60);
     }
 
     std::string_view text_;
@@ -338,7 +327,7 @@ std::string printable(std::string_view text, std::size_t readable) {
     for (const char c : text) {
         const bool starts_character = (static_cast<unsigned char>(c) & 0xC0) != 0x80;
         if (result.size() >= readable && starts_character) return result + "…";
-        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+        result += std::iscntrl(static_cast<unsigned char>(c)) != 0 ? ' ' : c;
     }
     return result;
 }

@@ -4,7 +4,10 @@
 
 #include "materials/material.h"
 #include "renderer/core/image.h"
+#include "renderer/map_filter.h"
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace patina {
@@ -28,6 +31,32 @@ enum class MapKind { Color, Data, Normal };
 /// finest_side: of the levels whose width and height are at least that only the smallest is made; 0: all are.
 /// What is made is the same to the byte, but that numbers that are grey have one channel then.
 MapLevels make_map_levels(const Image& image, MapKind kind, ColorSpace color_space, int finest_side = 0);
+
+/// The same from rows, of which none is kept: what is in memory is what is made, and a few rows.
+class MapMaker {
+public:
+    MapMaker(MapKind kind, ColorSpace color_space, int finest_side = 0);
+    MapMaker(const MapMaker&) = delete;
+    MapMaker& operator=(const MapMaker&) = delete;
+    void begin(const Image& shape);                ///< once, first; its bytes do not matter
+    void row(const std::byte* row);                ///< each of the picture's, from the top
+    const Image& shape() const { return whole_; }  ///< of the picture, without bytes
+    std::size_t bytes() const;                     ///< in memory
+    MapLevels take();                              ///< once, after the last row
+
+private:
+    void make_shapes(int channels);
+
+    MapKind kind_;
+    bool encoded_;
+    int finest_side_;
+    Image whole_, row_;
+    MapLevels map_;
+    std::optional<MipChain> chain_;
+    int rows_ = 0;
+    bool taken_as_stored_ = false;  ///< rows need no change before they are averaged
+    bool maybe_grey_ = false;       ///< its channels were equal so far, and grey is to be kept as one
+};
 
 /// The kind of map a slot takes.
 MapKind map_kind(MapSlot slot);

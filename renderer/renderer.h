@@ -62,7 +62,8 @@ enum class TargetPrecision { Half, Full };
 enum class Reuse {
     None,
     IfRepeated,  ///< when the same surface was drawn a moment ago
-    Expected     ///< more pictures of it follow
+    Expected,    ///< more pictures of it follow
+    Standing     ///< likewise, and then none from a moved camera: where it was rasterised is given back
 };
 
 /// Something large on its way to the GPU, a portion a frame, so that the window does not stall.

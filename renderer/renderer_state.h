@@ -50,9 +50,9 @@ inline constexpr int kIdleScratch = 32;  ///< pictures after which where they we
 
 /// By what decides their text.
 struct StoredPrograms {
-    std::map<Features, gl::Program> rasterise;  ///< by maps
+    std::map<std::pair<Features, std::vector<std::string>>, gl::Program> rasterise;  ///< by maps, and packed
     gl::Program behind;
-    std::map<int, gl::Program> fragments;                  ///< by samples
+    std::map<int, gl::Program> fragments, rays;            ///< by samples
     std::map<std::pair<int, Features>, gl::Program> sort;  ///< by samples and maps
     std::map<Features, gl::Program> shade;
     std::map<int, gl::Program> resolve;  ///< by samples
@@ -106,8 +106,9 @@ struct Renderer::State {
     gl::SurfacePrograms surface_programs(int samples, Features maps);
     std::shared_ptr<const GpuSurfaces> surfaces_for(const Scene& scene, const RenderTarget& target,
                                                     Features features, Reuse reuse);
-    std::shared_ptr<const GpuSurfaces> rasterised(const Scene& scene, const RenderTarget& target,
-                                                  Features maps);
+    /// old: one that nobody needs any more, or none.
+    std::shared_ptr<GpuSurfaces> rasterised(const Scene& scene, const RenderTarget& target, Features maps,
+                                            const std::shared_ptr<GpuSurfaces>& old);
     void shade_stored(const Scene& scene, const GpuEnvironment& environment, RenderTarget& target,
                       const std::shared_ptr<const GpuSurfaces>& surfaces);
     void draw_resolved(const RenderTarget& target);

@@ -4,6 +4,9 @@
 #include "renderer/gl/texture.h"
 #include "renderer/renderer_state.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace patina {
 
 namespace {
@@ -22,6 +25,19 @@ Material with_plain_values(const Material& material) {
 
 std::vector<std::string> with_samples(std::vector<std::string> defines, int samples) {
     if (samples > 1) defines.push_back("SAMPLES=" + std::to_string(samples));
+    return defines;
+}
+
+/// Of the maps, those that are one picture with the roughness map: it is looked up once for all.
+std::vector<std::string> packed_defines(const Scene& scene, Features maps) {
+    std::vector<std::string> defines;
+    const auto is_packed = [&](MapSlot slot) {
+        const auto reads = [&](MapSlot each) { return (maps >> Features(each) & 1u) != 0; };
+        return reads(slot) && reads(MapSlot::Roughness) &&
+               scene.maps[std::size_t(slot)] == scene.maps[std::size_t(MapSlot::Roughness)];
+    };
+    if (is_packed(MapSlot::Metallic)) defines.emplace_back("METALLIC_WITH_ROUGHNESS");
+    if (is_packed(MapSlot::Ao)) defines.emplace_back("AO_WITH_ROUGHNESS");
     return defines;
 }
 
@@ -73,6 +89,7 @@ gl::SurfacePrograms Renderer::State::surface_programs(int samples, Features maps
     };
     return {.fragments = sorting(stored.fragments[samples], {"FRAGMENTS"}),
             .sorted = sorting(stored.sort[{samples, maps}], stored_defines(maps)),
+            .rays = sorting(stored.rays[samples], {"RAYS"}),
             .nothing = nothing.name()};
 }
 
@@ -95,15 +112,15 @@ std::shared_ptr<const GpuSurfaces> Renderer::State::surfaces_for(const Scene& sc
     }
     // Software spends more on small triangles than on keeping what lies under them.
     const bool at_once =
-        wanted == Reuse::Expected ||
+        wanted == Reuse::Expected || wanted == Reuse::Standing ||
         (gl::is_software() &&
          gl::SurfaceScratch::bytes_for(target.size, target.samples, kind_of(maps)) <= kSmallScratchBytes);
     if (!at_once && !kept_surfaces.was_drawn(key)) return {};
-    auto made = rasterised(scene, target, maps);
+    auto made = rasterised(scene, target, maps, kept_surfaces.take_old(key));
     kept_surfaces.keep(key, made);
     // One view's camera stood still for this; a sheet's is likely to move on.
     scratch_idle = 0;
-    if (!at_once) scratch = {};
+    if (!at_once || wanted == Reuse::Standing) scratch = {};
     return made;
 }
 
@@ -112,19 +129,25 @@ void Renderer::State::rasterise(const Scene& scene, const blocks::FrameBlock& fr
     upload_block(material_rows, gl::kMaterialSlot,
                  make_material_block(with_plain_values(scene.material), maps, 1.0f));
     bind_maps(scene);
-    gl::Program& program = stored.rasterise[maps];
-    if (!program) program = compiled("mesh.vert.glsl", "surfaces.frag.glsl", stored_defines(maps));
+    std::vector<std::string> defines = packed_defines(scene, maps);
+    gl::Program& program = stored.rasterise[{maps, defines}];
+    if (!program) {
+        std::ranges::copy(stored_defines(maps), std::back_inserter(defines));
+        program = compiled("mesh.vert.glsl", "surfaces.frag.glsl", defines);
+    }
     glUseProgram(program.name());
     draw_counted_mesh(scene);
 }
 
-std::shared_ptr<const GpuSurfaces> Renderer::State::rasterised(const Scene& scene, const RenderTarget& target,
-                                                               Features maps) {
+std::shared_ptr<GpuSurfaces> Renderer::State::rasterised(const Scene& scene, const RenderTarget& target,
+                                                         Features maps,
+                                                         const std::shared_ptr<GpuSurfaces>& old) {
     if (!scratch.fits(target.size, target.samples, kind_of(maps)))
         scratch.make(target.size, target.samples, kind_of(maps));
     set_switches();
     scratch.begin();
     rasterise(scene, make_frame_block(scene.camera, scene.view, target.size, {}, 0.0f), maps);
+    scratch.begin_rays();
     if (!stored.behind) stored.behind = compiled("background.vert.glsl", "surfaces_behind.frag.glsl", {});
     glDepthMask(GL_FALSE);
     glUseProgram(stored.behind.name());
@@ -132,7 +155,8 @@ std::shared_ptr<const GpuSurfaces> Renderer::State::rasterised(const Scene& scen
     glDrawArrays(GL_TRIANGLES, 0, 3);
     ++work.surfaces_rasterised;
     count_draw(3, 3);
-    return std::make_shared<GpuSurfaces>(scratch.finish(surface_programs(target.samples, maps)));
+    return std::make_shared<GpuSurfaces>(
+        scratch.finish(surface_programs(target.samples, maps), old ? std::move(*old) : GpuSurfaces{}));
 }
 
 void Renderer::State::shade_stored(const Scene& scene, const GpuEnvironment& environment,

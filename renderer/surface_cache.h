@@ -14,6 +14,7 @@
 #include <deque>
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace patina {
 
@@ -55,7 +56,24 @@ public:
         found->used = now_;
         return found->surface;
     }
-    void keep(const SurfaceKey& key, std::shared_ptr<const Surface> surface) {
+    /// Of surfaces that differ in the camera alone the one that was used longest ago, if nothing shows it any
+    /// more and newer ones are kept; it is kept no longer. A camera that moves does not come back.
+    std::shared_ptr<Surface> take_old(const SurfaceKey& key) {
+        SurfaceKey moved = key;
+        std::vector<std::size_t> others;
+        for (std::size_t i = 0; i < kept_.size(); ++i) {
+            moved.camera = kept_[i].key.camera;
+            if (kept_[i].key == moved) others.push_back(i);
+        }
+        if (others.size() <= kRecentCameras) return {};
+        const std::size_t oldest =
+            *std::ranges::min_element(others, {}, [&](std::size_t i) { return kept_[i].used; });
+        if (kept_[oldest].surface.use_count() > 1) return {};
+        std::shared_ptr<Surface> old = std::move(kept_[oldest].surface);
+        kept_.erase(kept_.begin() + std::ptrdiff_t(oldest));
+        return old;
+    }
+    void keep(const SurfaceKey& key, std::shared_ptr<Surface> surface) {
         kept_.push_front({key, std::move(surface), now_});
         std::ranges::sort(kept_, std::greater<>{}, &Kept::used);
         std::uint64_t bytes = 0;
@@ -79,9 +97,10 @@ private:
     static constexpr std::uint64_t kIdlePictures = 32;
     static constexpr std::uint64_t kMaxBytes = std::uint64_t{192} << 20;
     static constexpr std::size_t kRemembered = 16;
+    static constexpr std::size_t kRecentCameras = 1;
     struct Kept {
         SurfaceKey key;
-        std::shared_ptr<const Surface> surface;
+        std::shared_ptr<Surface> surface;
         std::uint64_t used = 0;
     };
     std::deque<Kept> kept_;

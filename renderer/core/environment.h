@@ -39,6 +39,10 @@ glm::vec2 direction_to_equirect(glm::vec3 direction);
 /// size, also not 2:1 (noted, taken as a full panorama). Throws std::runtime_error on an empty image.
 Environment make_environment(const Image& image, std::string id, std::string title);
 
+/// What is kept of environments elsewhere ends with this number: raised whenever a file or a built-in
+/// environment becomes other radiance, another title or other notes.
+inline constexpr int kEnvironmentVersion = 1;
+
 /// Of size and pixels. Whoever builds an Environment by hand sets content_hash to it.
 std::uint64_t environment_hash(const Environment& environment);
 

@@ -1,11 +1,13 @@
 #include "renderer/core/environment_io.h"
 
 #include "renderer/core/file_io.h"
+#include "renderer/core/hash.h"
 #include "renderer/core/image_io.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <exception>
 #include <system_error>
 
 namespace patina {
@@ -56,6 +58,14 @@ Environment load_environment_file(const fs::path& file) {
     Environment environment = make_environment(loaded.image, path_text(file), path_text(file.stem()));
     environment.notes.insert(environment.notes.begin(), loaded.notes.begin(), loaded.notes.end());
     return environment;
+}
+
+std::optional<std::uint64_t> environment_file_hash(const fs::path& file) {
+    try {
+        return hash_bytes(read_file(file));
+    } catch (const std::exception&) {
+        return std::nullopt;  // whoever decodes it says what is wrong
+    }
 }
 
 std::vector<EnvironmentFile> list_blender_studio_lights(std::span<const fs::path> folders) {

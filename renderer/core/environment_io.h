@@ -3,7 +3,9 @@
 
 #include "renderer/core/environment.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +15,9 @@ namespace patina {
 /// The picture as a full panorama; its id is the path as UTF-8, its title the file's name without extension.
 /// What the picture's loader tolerated comes first in notes. Throws as load_image does.
 Environment load_environment_file(const std::filesystem::path& file);
+
+/// Of the file's bytes as they are, read but not decoded; nullopt where it cannot be read.
+std::optional<std::uint64_t> environment_file_hash(const std::filesystem::path& file);
 
 struct EnvironmentFile {
     std::string id;     ///< "blender-city"

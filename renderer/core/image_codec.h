@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,8 +22,7 @@ struct ImageSource {
     const std::filesystem::path& file;
     ImageFormat format = ImageFormat::Unknown;
     std::span<const std::byte>
-        bytes;           ///< the whole file; empty where only its header is wanted, read from file
-    int least_side = 0;  ///< may be decoded smaller, no side below this; 0: as it is
+        bytes;  ///< the whole file; empty where only its header is wanted, read from file
 };
 
 struct DecodedHeader {
@@ -34,9 +34,19 @@ struct DecodedImage {
     int orientation = 1;  ///< EXIF orientation 1…8 that is still to be applied
 };
 
+/// Where a decoder that need not hold the whole picture puts it.
+struct StoredRows {
+    /// Once, first: the picture's shape as stored, without bytes, and the EXIF orientation that is still to
+    /// be applied.
+    std::function<void(const Image& shape, int orientation)> begin;
+    std::function<void(const std::byte* row)> row;  ///< each, from the first that is stored
+};
+
+/// Decodes in one of two ways; the other is null.
 struct ImageCodec {
     DecodedHeader (*header)(const ImageSource&) = nullptr;
     DecodedImage (*decode)(const ImageSource&) = nullptr;
+    void (*decode_rows)(const ImageSource&, const StoredRows&) = nullptr;
 };
 
 const ImageCodec& png_codec();

@@ -1,4 +1,5 @@
 // OpenEXR pictures through OpenEXR, from and to memory; a header alone from the file.
+#include "renderer/core/exr_structure.h"
 #include "renderer/core/file_io.h"
 #include "renderer/core/image_channels.h"
 #include "renderer/core/image_codec.h"
@@ -175,7 +176,23 @@ ImageMetadata metadata_of(const Imf::Header& header) {
     return metadata;
 }
 
+ExrStructure sound_structure(Bytes start, std::uint64_t file_bytes) {
+    ExrStructure structure = exr_structure(start, file_bytes);
+    if (!structure.problem.empty()) throw std::runtime_error(structure.problem);
+    return structure;
+}
+
+/// Reads no more of the file than its headers take, as far as can be told.
+void check_headers(const std::filesystem::path& file) {
+    constexpr std::uint64_t usual = 1 << 16;
+    const std::vector<std::byte> start = read_file(file, usual);
+    if (sound_structure(start, std::filesystem::file_size(file)).header_bytes > 0) return;
+    const std::vector<std::byte> whole = read_file(file);
+    sound_structure(whole, whole.size());
+}
+
 DecodedHeader header(const ImageSource& source) {
+    check_headers(source.file);
     const Imf::MultiPartInputFile input(path_text(source.file).c_str(), 0);
     const Part part = choose_part(input);
     const Imf::Header& own = input.header(part.index);
@@ -207,6 +224,7 @@ Image read_part(Imf::MultiPartInputFile& input, const Part& part) {
 }
 
 DecodedImage decode(const ImageSource& source) {
+    sound_structure(source.bytes, source.bytes.size());
     MemoryInput stream(source.bytes);
     Imf::MultiPartInputFile input(stream, helper_threads());
     const Part part = choose_part(input);

@@ -6,6 +6,7 @@
 #include "renderer/core/module_io.h"
 #include "renderer/core/radiance_hdr.h"
 
+#include <cstring>
 #include <exception>
 #include <new>
 #include <stdexcept>
@@ -93,16 +94,85 @@ LoadedImage load_radiance(const fs::path& file, Bytes bytes) {
     return {.image = std::move(picture.image), .notes = std::move(picture.notes)};
 }
 
-LoadedImage load_decoded(const fs::path& file, ImageFormat format, Bytes bytes, int least_side) {
+/// Its shape, without texels.
+Image shape_of(const Image& image) {
+    return {.width = image.width,
+            .height = image.height,
+            .channels = image.channels,
+            .type = image.type,
+            .bytes = {}};
+}
+
+/// Rows put together again.
+struct Collected {
+    Image image;
+    std::size_t at = 0;
+
+    void begin(const Image& shape) {
+        image = make_image(shape.width, shape.height, shape.channels, shape.type);
+    }
+    void add(const std::byte* row) {
+        const std::size_t size = image.bytes.size() / static_cast<std::size_t>(image.height);
+        std::memcpy(image.bytes.data() + at, row, size);
+        at += size;
+    }
+};
+
+void check_bytes(const fs::path& file, ImageFormat format, Bytes bytes) {
     if (const std::string problem = image_structure_problem(format, bytes); !problem.empty())
         fail(file, problem);
     check_promise(file, format, bytes);
+}
+
+DecodedImage collected(const ImageCodec& codec, const ImageSource& source) {
+    if (codec.decode) return codec.decode(source);
+    DecodedImage decoded;
+    Collected whole;
+    const auto begin = [&](const Image& shape, int orientation) {
+        decoded.orientation = orientation;
+        whole.begin(shape);
+    };
+    codec.decode_rows(source, {.begin = begin, .row = [&](const std::byte* row) { whole.add(row); }});
+    decoded.loaded.image = std::move(whole.image);
+    return decoded;
+}
+
+LoadedImage load_decoded(const fs::path& file, ImageFormat format, Bytes bytes) {
+    check_bytes(file, format, bytes);
     return named(file, [&] {
         DecodedImage decoded =
-            codec_for(format, bytes)
-                .decode({.file = file, .format = format, .bytes = bytes, .least_side = least_side});
+            collected(codec_for(format, bytes), {.file = file, .format = format, .bytes = bytes});
         decoded.loaded.image = oriented(std::move(decoded.loaded.image), decoded.orientation);
         return std::move(decoded.loaded);
+    });
+}
+
+LoadedImage load_bytes(const fs::path& file, ImageFormat format, Bytes bytes) {
+    return format == ImageFormat::Hdr ? load_radiance(file, bytes) : load_decoded(file, format, bytes);
+}
+
+/// Given on as they come where they are stored as they are to be seen, else when all are there.
+void decode_rows(const ImageCodec& codec, const ImageSource& source, const ImageRows& rows) {
+    Collected turned;
+    int turn = 1;
+    const auto begin = [&](const Image& shape, int orientation) {
+        turn = orientation;
+        turn == 1 ? rows.begin(shape) : turned.begin(shape);
+    };
+    const auto add = [&](const std::byte* row) { turn == 1 ? rows.row(row) : turned.add(row); };
+    codec.decode_rows(source, {.begin = begin, .row = add});
+    if (turn != 1) give_rows(oriented(std::move(turned.image), turn), rows);
+}
+
+/// False, and nothing is given, where such a picture is decoded whole.
+bool decode_by_rows(const fs::path& file, ImageFormat format, Bytes bytes, const ImageRows& rows) {
+    if (format == ImageFormat::Hdr) return false;
+    check_bytes(file, format, bytes);
+    return named(file, [&] {
+        const ImageCodec& codec = codec_for(format, bytes);
+        if (!codec.decode_rows) return false;
+        decode_rows(codec, {.file = file, .format = format, .bytes = bytes}, rows);
+        return true;
     });
 }
 
@@ -137,15 +207,31 @@ ImageInfo load_image_info(const fs::path& file) {
             .format = "hdr"};
 }
 
-LoadedImage load_image(const fs::path& file) { return load_image_reduced(file, 0); }
-
-LoadedImage load_image_reduced(const fs::path& file, int least_side) {
+LoadedImage load_image(const fs::path& file) {
     const std::vector<std::byte> bytes = read_file(file);
     const ImageFormat format = known_format(file, bytes);
-    LoadedImage loaded = format == ImageFormat::Hdr ? load_radiance(file, bytes)
-                                                    : load_decoded(file, format, bytes, least_side);
+    LoadedImage loaded = load_bytes(file, format, bytes);
     note_extension(file, format, loaded.notes);
     return loaded;
+}
+
+void give_rows(const Image& image, const ImageRows& rows) {
+    rows.begin(shape_of(image));
+    const std::size_t size = image.bytes.size() / static_cast<std::size_t>(image.height);
+    for (std::size_t at = 0; at < image.bytes.size(); at += size) rows.row(image.bytes.data() + at);
+}
+
+std::vector<std::string> load_image_rows(const fs::path& file, const ImageRows& rows) {
+    const std::vector<std::byte> bytes = read_file(file);
+    const ImageFormat format = known_format(file, bytes);
+    std::vector<std::string> notes;
+    if (!decode_by_rows(file, format, bytes, rows)) {
+        LoadedImage loaded = load_bytes(file, format, bytes);
+        give_rows(loaded.image, rows);
+        notes = std::move(loaded.notes);
+    }
+    note_extension(file, format, notes);
+    return notes;
 }
 
 ImageMetadata load_image_metadata(const fs::path& file) {

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,8 +26,13 @@ struct ImageInfo {
 
 struct LoadedImage {
     Image image;
-    int whole_width = 0, whole_height = 0;  ///< of the file, where the image was decoded smaller; else 0
-    std::vector<std::string> notes;         ///< what was tolerated, one sentence each
+    std::vector<std::string> notes;  ///< what was tolerated, one sentence each
+};
+
+/// Takes a picture a row at a time.
+struct ImageRows {
+    std::function<void(const Image& shape)> begin;  ///< once, first: the picture without its bytes
+    std::function<void(const std::byte* row)> row;  ///< each of its rows, from the top
 };
 
 /// Text stored beside the pixels (PNG text chunks, EXR attributes), in order. Names of one's own, such as
@@ -43,9 +49,11 @@ ImageInfo load_image_info(const std::filesystem::path& file);
 /// of several parts the first with colours; palettes are expanded; CMYK becomes RGB; alpha is left as stored,
 /// not multiplied in; camera orientation is honoured; an EXR comes in its display window.
 LoadedImage load_image(const std::filesystem::path& file);
-/// The same, at half, a quarter or an eighth of its size where the format can decode that at once (JPEG,
-/// whose blocks it averages) and no side gets shorter than least_side (≥ 1).
-LoadedImage load_image_reduced(const std::filesystem::path& file, int least_side);
+/// The same picture row by row, and the notes: a PNG that is not interlaced and an upright JPEG are never
+/// whole in memory. Damage may show only after some rows were given.
+std::vector<std::string> load_image_rows(const std::filesystem::path& file, const ImageRows& rows);
+/// A picture in memory as rows.
+void give_rows(const Image& image, const ImageRows& rows);
 
 /// Text and numbers stored in the header, as text.
 ImageMetadata load_image_metadata(const std::filesystem::path& file);

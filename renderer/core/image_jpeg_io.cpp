@@ -96,19 +96,6 @@ int orientation_of(const Reader& reader) {
     return 1;
 }
 
-/// By how much it is decoded smaller: as far as both sides stay at least that long.
-unsigned reduction(const jpeg_decompress_struct& jpeg, int least_side) {
-    unsigned divisor = 1;
-    const unsigned shorter = std::min(jpeg.image_width, jpeg.image_height);
-    const auto divides = [&](unsigned by) {
-        return jpeg.image_width % by == 0 && jpeg.image_height % by == 0;
-    };
-    while (least_side > 0 && divisor < 8 && divides(2 * divisor) &&
-           shorter / (2 * divisor) >= unsigned(least_side))
-        divisor *= 2;
-    return divisor;
-}
-
 DecodedHeader header(const ImageSource& source) {
     const std::vector<std::byte> bytes = read_file(source.file);
     Reader reader;
@@ -126,37 +113,35 @@ DecodedHeader header(const ImageSource& source) {
     return result;
 }
 
-DecodedImage decode(const ImageSource& source) {
+void decode_rows(const ImageSource& source, const StoredRows& rows) {
     Reader reader;
     open(reader, source.bytes);
     jpeg_decompress_struct& jpeg = reader.jpeg;
-    const int width = int(jpeg.image_width);
-    const int height = int(jpeg.image_height);
-    if (!can_hold(ImageFormat::Jpeg, source.bytes.size(), std::uint64_t(width) * std::uint64_t(height)))
+    const std::uint64_t pixels = std::uint64_t(jpeg.image_width) * std::uint64_t(jpeg.image_height);
+    if (!can_hold(ImageFormat::Jpeg, source.bytes.size(), pixels))
         throw std::runtime_error("promises more pixels than it holds; copy or export it again");
-    DecodedImage decoded;
-    decoded.orientation = orientation_of(reader);
-    decoded.loaded.whole_width = decoded.orientation >= 5 ? height : width;
-    decoded.loaded.whole_height = decoded.orientation >= 5 ? width : height;
-    Image& image = decoded.loaded.image;
-    attempt(reader, [&jpeg, &image, &source] {
+    attempt(reader, [&jpeg] {
         jpeg.out_color_space = jpeg.num_components == 1 ? JCS_GRAYSCALE : JCS_RGB;
-        jpeg.scale_num = 1;
-        jpeg.scale_denom = reduction(jpeg, source.least_side);
         jpeg_start_decompress(&jpeg);
-        image = make_image(int(jpeg.output_width), int(jpeg.output_height), jpeg.output_components,
-                           PixelType::U8);
-        const std::size_t row_size = std::size_t(jpeg.output_width) * std::size_t(jpeg.output_components);
-        while (jpeg.output_scanline < jpeg.output_height) {
-            JSAMPROW row = reinterpret_cast<JSAMPROW>(image.bytes.data() + jpeg.output_scanline * row_size);
-            jpeg_read_scanlines(&jpeg, &row, 1);
-        }
-        jpeg_finish_decompress(&jpeg);
     });
-    return decoded;
+    rows.begin({.width = int(jpeg.output_width),
+                .height = int(jpeg.output_height),
+                .channels = jpeg.output_components,
+                .type = PixelType::U8,
+                .bytes = {}},
+               orientation_of(reader));
+    std::vector<std::byte> row(std::size_t(jpeg.output_width) * std::size_t(jpeg.output_components));
+    while (jpeg.output_scanline < jpeg.output_height) {
+        attempt(reader, [&jpeg, &row] {
+            auto* target = reinterpret_cast<JSAMPROW>(row.data());
+            jpeg_read_scanlines(&jpeg, &target, 1);
+        });
+        rows.row(row.data());
+    }
+    attempt(reader, [&jpeg] { jpeg_finish_decompress(&jpeg); });
 }
 
-constexpr ImageCodec kCodec{.header = header, .decode = decode};
+constexpr ImageCodec kCodec{.header = header, .decode_rows = decode_rows};
 
 }  // namespace
 

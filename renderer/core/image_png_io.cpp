@@ -109,7 +109,27 @@ DecodedHeader header(const ImageSource& source) {
     return {.info = info_of(reader), .metadata = metadata_of(reader)};
 }
 
-DecodedImage decode(const ImageSource& source) {
+/// The rows of an interlaced picture are whole only when all are there.
+void read_interlaced(Reader& reader, const Image& shape, const StoredRows& rows) {
+    Image image = make_image(shape.width, shape.height, shape.channels, shape.type);
+    const std::size_t row_size = image.bytes.size() / static_cast<std::size_t>(image.height);
+    std::vector<png_bytep> starts(static_cast<std::size_t>(image.height));
+    for (std::size_t y = 0; y < starts.size(); ++y)
+        starts[y] = reinterpret_cast<png_bytep>(image.bytes.data() + y * row_size);
+    attempt(reader.png, reader.problem, [&reader, &starts] { png_read_image(reader.png, starts.data()); });
+    for (const png_bytep start : starts) rows.row(reinterpret_cast<const std::byte*>(start));
+}
+
+void read_rows(Reader& reader, const Image& shape, const StoredRows& rows) {
+    std::vector<png_byte> row(png_get_rowbytes(reader.png, reader.info));
+    for (int y = 0; y < shape.height; ++y) {
+        attempt(reader.png, reader.problem,
+                [&reader, &row] { png_read_row(reader.png, row.data(), nullptr); });
+        rows.row(reinterpret_cast<const std::byte*>(row.data()));
+    }
+}
+
+void decode_rows(const ImageSource& source, const StoredRows& rows) {
     Reader reader;
     open(reader, source.bytes);
     const ImageInfo info = info_of(reader);
@@ -118,20 +138,19 @@ DecodedImage decode(const ImageSource& source) {
     if (!can_hold(ImageFormat::Png, source.bytes.size(),
                   static_cast<std::uint64_t>(info.width) * info.height))
         throw std::runtime_error("promises more pixels than it holds; copy or export it again");
-    DecodedImage decoded;
-    Image& image = decoded.loaded.image;
-    image = make_image(info.width, info.height, info.channels, info.type);
-    const std::size_t row_size = image.bytes.size() / static_cast<std::size_t>(image.height);
-    std::vector<png_bytep> rows(static_cast<std::size_t>(image.height));
-    for (std::size_t y = 0; y < rows.size(); ++y)
-        rows[y] = reinterpret_cast<png_bytep>(image.bytes.data() + y * row_size);
-    attempt(reader.png, reader.problem, [&reader, &rows, row_size] {
-        if (png_get_rowbytes(reader.png, reader.info) != row_size)
-            png_error(reader.png, "rows of a strange size");
-        png_read_image(reader.png, rows.data());
-        png_read_end(reader.png, nullptr);
-    });
-    return decoded;
+    const Image shape{.width = info.width,
+                      .height = info.height,
+                      .channels = info.channels,
+                      .type = info.type,
+                      .bytes = {}};
+    const std::size_t row_size =
+        static_cast<std::size_t>(info.width) * info.channels * bytes_per_channel(info.type);
+    if (png_get_rowbytes(reader.png, reader.info) != row_size)
+        throw std::runtime_error(damaged("rows of a strange size"));
+    rows.begin(shape, 1);
+    const bool interlaced = png_get_interlace_type(reader.png, reader.info) != PNG_INTERLACE_NONE;
+    interlaced ? read_interlaced(reader, shape, rows) : read_rows(reader, shape, rows);
+    attempt(reader.png, reader.problem, [&reader] { png_read_end(reader.png, nullptr); });
 }
 
 // --- writing ---
@@ -189,7 +208,7 @@ int color_type(int channels) {
 }  // namespace
 
 const ImageCodec& png_codec() {
-    static constexpr ImageCodec codec{.header = header, .decode = decode};
+    static constexpr ImageCodec codec{.header = header, .decode_rows = decode_rows};
     return codec;
 }
 

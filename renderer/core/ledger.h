@@ -22,8 +22,9 @@ struct SkippedWork {
 struct WorkLedger {
     // Light.
     std::uint64_t environments_decoded = 0;
-    std::uint64_t sphere_transforms = 0;  ///< spherical-harmonic analyses of a panorama
-    std::uint64_t first_lights = 0;       ///< quick bakes from a reduced panorama
+    std::uint64_t environments_from_disk = 0;  ///< ready for the GPU, neither decoded nor filtered
+    std::uint64_t sphere_transforms = 0;       ///< spherical-harmonic analyses of a panorama
+    std::uint64_t first_lights = 0;            ///< quick bakes from a reduced panorama
     std::uint64_t levels_baked = 0;
     std::uint64_t irradiance_bakes = 0;
     std::uint64_t bakes_from_disk = 0;
@@ -35,6 +36,7 @@ struct WorkLedger {
     std::uint64_t programs_from_disk = 0;
     std::uint64_t maps_decoded = 0;
     std::uint64_t map_bytes_decoded = 0;
+    std::uint64_t map_bytes_held = 0;  ///< the most that each took in memory while it was read
     std::uint64_t maps_from_memory = 0;
     std::uint64_t maps_uploaded = 0;
     std::uint64_t map_bytes_uploaded = 0;
@@ -69,6 +71,8 @@ struct LedgerRow {
 /// Every counter, group by group. JSON and the panel follow from it.
 inline constexpr std::array kLedgerRows{
     LedgerRow{"environments_decoded", "Light", "Environments decoded", &WorkLedger::environments_decoded},
+    LedgerRow{"environments_from_disk", "Light", "Environments found on disk",
+              &WorkLedger::environments_from_disk},
     LedgerRow{"sphere_transforms", "Light", "Transforms of a panorama", &WorkLedger::sphere_transforms},
     LedgerRow{"first_lights", "Light", "First lights", &WorkLedger::first_lights},
     LedgerRow{"levels_baked", "Light", "Roughness levels baked", &WorkLedger::levels_baked},
@@ -82,6 +86,8 @@ inline constexpr std::array kLedgerRows{
     LedgerRow{"programs_from_disk", "Material", "Programs found on disk", &WorkLedger::programs_from_disk},
     LedgerRow{"maps_decoded", "Material", "Maps decoded", &WorkLedger::maps_decoded},
     LedgerRow{"map_bytes_decoded", "Material", "Texels decoded", &WorkLedger::map_bytes_decoded,
+              LedgerUnit::Bytes},
+    LedgerRow{"map_bytes_held", "Material", "Texels held at once", &WorkLedger::map_bytes_held,
               LedgerUnit::Bytes},
     LedgerRow{"maps_from_memory", "Material", "Maps found in memory", &WorkLedger::maps_from_memory},
     LedgerRow{"maps_uploaded", "Material", "Maps uploaded", &WorkLedger::maps_uploaded},

@@ -25,6 +25,9 @@ struct PanoramaLevels {
 /// Larger panoramas are halved until they are no wider than that.
 inline constexpr int kMaxPanoramaWidth = 8192;
 
+/// Raised whenever make_panorama_levels' output changes.
+inline constexpr int kPanoramaVersion = 1;
+
 PanoramaLevels make_panorama_levels(const Environment& environment, int max_width = kMaxPanoramaWidth);
 
 /// The exponent e for which largest · 2^−e lies in (2^14, 2^15]: no overflow in a half float and the most

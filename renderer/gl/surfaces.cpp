@@ -14,6 +14,8 @@ namespace patina::gl {
 namespace {
 
 constexpr std::uint32_t kMixedPixel = 0x80000000u;
+constexpr std::size_t kViews = 1;  ///< the layer that has the rays, too
+constexpr int kRoomStep = 32;      ///< rows: pictures that differ little have the same room
 
 int layer_count(SurfaceMaps maps) {
     return maps == SurfaceMaps::None ? 3 : maps == SurfaceMaps::Some ? 5 : 6;
@@ -63,6 +65,26 @@ void require_complete(glm::ivec2 size) {
                              ": choose a smaller size.");
 }
 
+/// Layers with room for the rows, old's where they fit.
+void make_room(GpuSurfaces& surfaces, int layers, GpuSurfaces old) {
+    const auto fits = [](int rows, int room) { return room >= rows && room <= 2 * rows + kRoomStep; };
+    const auto has_layer = [](const Texture& layer) { return bool(layer); };
+    if (std::ranges::count_if(old.layers, has_layer) == layers && fits(surfaces.mesh_rows, old.mesh_room) &&
+        fits(surfaces.rows, old.room)) {
+        surfaces.mesh_room = old.mesh_room;
+        surfaces.room = old.room;
+        surfaces.layers = std::move(old.layers);
+        return;
+    }
+    const auto rounded = [](int rows) { return std::max((rows + kRoomStep - 1) / kRoomStep, 1) * kRoomStep; };
+    surfaces.mesh_room = rounded(surfaces.mesh_rows);
+    surfaces.room = rounded(surfaces.rows);
+    for (std::size_t i = 0; i < std::size_t(layers); ++i)
+        surfaces.layers[i] =
+            make_texture(GL_RGBA32F, {GpuSurfaces::kWidth, i == kViews ? surfaces.room : surfaces.mesh_room},
+                         {GL_RGBA, GL_FLOAT}, nullptr);
+}
+
 /// Where every fragment was found, and which fragments make up a pixel.
 struct Sorted {
     struct Place {
@@ -84,13 +106,17 @@ Sorted sorted(const std::vector<float>& fragments, glm::ivec2 size, int samples)
     constexpr std::uint32_t behind_mark = 0x40000000u;
     Sorted result;
     result.pixels.resize(texels_in(size));
+    result.mesh.reserve(texels_in(size));
+    result.behind.reserve(texels_in(size));
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {
             const std::size_t pixel = std::size_t(y) * std::size_t(size.x) + std::size_t(x);
             const float* const ids = &fragments[4 * pixel];
             std::array<std::uint32_t, 4> numbers{};
             bool is_one = true;
-            for (int i = 0; i < samples; ++i) {
+            const int different =
+                std::all_of(ids + 1, ids + samples, [&](float id) { return id == ids[0]; }) ? 1 : samples;
+            for (int i = 0; i < different; ++i) {
                 const int same = int(std::find(ids, ids + i, ids[i]) - ids);
                 if (same < i) {
                     numbers[std::size_t(i)] = numbers[std::size_t(same)];
@@ -186,11 +212,18 @@ void SurfaceScratch::make(glm::ivec2 size_px, int samples, SurfaceMaps maps) {
 
 void SurfaceScratch::begin() const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    draw_into(1 + layer_count(maps_));
     glViewport(0, 0, size_px_.x, size_px_.y);
     const GLfloat far = 1.0f;
     const GLfloat nothing[] = {0.0f, 0.0f, 0.0f, 0.0f};
     glClearBufferfv(GL_DEPTH, 0, &far);
     glClearBufferfv(GL_COLOR, 0, nothing);
+}
+
+/// They go into one layer; no triangle lies there.
+void SurfaceScratch::begin_rays() const {
+    constexpr std::array<GLenum, 1 + kViews + 1> places{GL_NONE, GL_NONE, GL_COLOR_ATTACHMENT0 + 1 + kViews};
+    glDrawBuffers(GLsizei(places.size()), places.data());
 }
 
 void SurfaceScratch::bind_layers() const {
@@ -203,12 +236,15 @@ void SurfaceScratch::share_depth() const {
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.name());
 }
 
-std::vector<float> SurfaceScratch::read_fragments(const SurfacePrograms& programs) const {
-    const Texture four = make_texture(GL_RGBA32F, size_px_, {GL_RGBA, GL_FLOAT}, nullptr);
-    const Framebuffer framebuffer = Framebuffer::make();
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-    attach(0, GL_TEXTURE_2D, four);
-    require_complete(size_px_);
+std::vector<float> SurfaceScratch::read_fragments(const SurfacePrograms& programs) {
+    if (!ids_) {
+        ids_ = make_texture(GL_RGBA32F, size_px_, {GL_RGBA, GL_FLOAT}, nullptr);
+        ids_framebuffer_ = Framebuffer::make();
+        glBindFramebuffer(GL_FRAMEBUFFER, ids_framebuffer_.name());
+        attach(0, GL_TEXTURE_2D, ids_);
+        require_complete(size_px_);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, ids_framebuffer_.name());
     bind_texture(kPictureUnit, kind(), fragments_);
     draw_all(programs.fragments, programs.nothing, {0, 0, size_px_});
     const KeepReadState pack;
@@ -218,7 +254,28 @@ std::vector<float> SurfaceScratch::read_fragments(const SurfacePrograms& program
     return fragments;
 }
 
-GpuSurfaces SurfaceScratch::finish(const SurfacePrograms& programs) const {
+/// Copies every fragment to its place: of the mesh all layers, of rays the one that has them.
+void SurfaceScratch::draw_sorted(const GpuSurfaces& surfaces, const SurfacePrograms& programs) const {
+    const Framebuffer framebuffer = Framebuffer::make();
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    const int layers = layer_count(maps_);
+    for (int i = 0; i < layers; ++i) {
+        attach(i, GL_TEXTURE_2D, surfaces.layers[std::size_t(i)]);
+        bind_texture(kFirstStoredUnit + GLuint(i), kind(), layers_[std::size_t(i)]);
+    }
+    draw_into(layers);
+    const glm::ivec2 extent{GpuSurfaces::kWidth, surfaces.rows};
+    require_complete(extent);
+    shade_rows(surfaces, StoredRows::Mesh, programs.sorted, programs.nothing);
+    for (int i = 1; i < layers; ++i)
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + GLenum(i), GL_TEXTURE_2D, 0, 0);
+    attach(0, GL_TEXTURE_2D, surfaces.layers[kViews]);
+    draw_into(1);
+    require_complete(extent);
+    shade_rows(surfaces, StoredRows::Behind, programs.rays, programs.nothing);
+}
+
+GpuSurfaces SurfaceScratch::finish(const SurfacePrograms& programs, GpuSurfaces old) {
     const KeepTextureBindings keep;
     Sorted fragments = sorted(read_fragments(programs), size_px_, samples_);
     if (fragments.rows > most_rows())
@@ -233,26 +290,16 @@ GpuSurfaces SurfaceScratch::finish(const SurfacePrograms& programs) const {
                          .mesh_fragments = fragments.mesh.size(),
                          .bytes = 0};
     const Texture places = make_places(fragments);
-    const Framebuffer framebuffer = Framebuffer::make();
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-    const glm::ivec2 extent{GpuSurfaces::kWidth, fragments.rows};
     const int layers = layer_count(maps_);
-    for (int i = 0; i < layers; ++i) {
-        auto& layer = surfaces.layers[std::size_t(i)];
-        layer = make_texture(GL_RGBA32F, extent, {GL_RGBA, GL_FLOAT}, nullptr);
-        attach(i, GL_TEXTURE_2D, layer);
-    }
-    draw_into(layers);
-    require_complete(extent);
+    make_room(surfaces, layers, std::move(old));
     bind_texture(kFragmentPlacesUnit, GL_TEXTURE_2D, places);
-    for (int i = 0; i < layers; ++i)
-        bind_texture(kFirstStoredUnit + GLuint(i), kind(), layers_[std::size_t(i)]);
-    draw_all(programs.sorted, programs.nothing, {0, 0, extent});
+    draw_sorted(surfaces, programs);
     surfaces.fragment_of_pixel =
         make_texture(GL_R32UI, size_px_, {GL_RED_INTEGER, GL_UNSIGNED_INT}, fragments.pixels.data());
     surfaces.fragments_of_samples = make_mixed(fragments);
     check_memory("the surface of the picture");
-    surfaces.bytes = texels_in(extent) * std::uint64_t(16 * layers) + 4 * texels_in(size_px_) +
+    const std::uint64_t rows = std::uint64_t(surfaces.room) + std::uint64_t(layers - 1) * surfaces.mesh_room;
+    surfaces.bytes = rows * GpuSurfaces::kWidth * 16 + 4 * texels_in(size_px_) +
                      16 * std::uint64_t(fragments.mixed.size());
     return surfaces;
 }

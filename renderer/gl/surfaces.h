@@ -25,6 +25,7 @@ struct GpuSurfaces {
     int samples = 1;
     int mesh_rows = 0;  ///< of fragments of the mesh; the rest are rays
     int rows = 0;
+    int mesh_room = 0, room = 0;  ///< rows that the layers have, of which those of rays but one need none
     std::array<gl::Texture, 6> layers;  ///< in the order of shaders/stored.glsl; those of maps may lack
     gl::Texture fragment_of_pixel;
     gl::Texture fragments_of_samples;
@@ -37,6 +38,7 @@ namespace gl {
 struct SurfacePrograms {
     GLuint fragments = 0;  ///< surfaces_sorted.frag.glsl with FRAGMENTS
     GLuint sorted = 0;     ///< and without
+    GLuint rays = 0;       ///< with RAYS
     GLuint nothing = 0;    ///< vertex array without attributes
 };
 
@@ -48,23 +50,27 @@ public:
     static std::uint64_t bytes_for(glm::ivec2 size_px, int samples, SurfaceMaps maps);
     /// Throws std::runtime_error where the driver has no room.
     void make(glm::ivec2 size_px, int samples, SurfaceMaps maps);
-    /// Empty, bound and ready to be drawn into.
+    /// Empty, bound and ready for the mesh to be drawn into, and then for the rays that pass it.
     void begin() const;
+    void begin_rays() const;
     /// What was drawn, as it lies there, for shaders to read. Precondition: one sample.
     void bind_layers() const;
     /// Its depth becomes that of the framebuffer that is bound, which has the same size and samples.
     void share_depth() const;
-    /// Sorts what was drawn.
-    GpuSurfaces finish(const SurfacePrograms& programs) const;
+    /// Sorts what was drawn. old: one that nobody needs any more, whose room is used again where it fits.
+    GpuSurfaces finish(const SurfacePrograms& programs, GpuSurfaces old);
 
 private:
-    std::vector<float> read_fragments(const SurfacePrograms& programs) const;
+    std::vector<float> read_fragments(const SurfacePrograms& programs);
+    void draw_sorted(const GpuSurfaces& surfaces, const SurfacePrograms& programs) const;
     GLenum kind() const { return samples_ > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D; }
 
     glm::ivec2 size_px_{0};
     int samples_ = 0;
     SurfaceMaps maps_ = SurfaceMaps::None;
     Texture fragments_;  ///< of which triangle
+    Texture ids_;        ///< the same, four samples a texel
+    Framebuffer ids_framebuffer_;
     std::array<Texture, 6> layers_;
     Renderbuffer depth_;
     Framebuffer framebuffer_;

@@ -1,191 +1,52 @@
 #include "renderer/ibl/cache.h"
 
-#include "renderer/core/hash.h"
-
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cassert>
-#include <chrono>
-#include <fstream>
-#include <limits>
-#include <random>
-#include <system_error>
 #include <type_traits>
+#include <utility>
 
 namespace patina {
 namespace {
 
-namespace fs = std::filesystem;
-
-// One entry, in the machine's byte order (marked, so that another machine's file counts as foreign): Header,
-// LevelEntry × level_count, ExtractedLight × light_count, notes (each ended by a zero byte), texels of the
-// irradiance, texels of each level. Texels are kept as floats: a cached bake is bit for bit the bake, so a
-// picture does not depend on the cache.
-constexpr std::array<char, 8> kMagic = {'P', 'a', 't', 'i', 'n', 'a', 'I', 'B'};
-constexpr std::uint32_t kFormat = 2;
-constexpr std::uint32_t kByteOrder = 0x01020304;
-constexpr std::uint32_t kMaxCount = 4096;  ///< levels, or lights, in one entry
-constexpr std::size_t kMostLevels = 64;    ///< an entry that would grow beyond starts anew
+// One entry: LevelEntry × levels, ExtractedLight × lights, notes, texels of the irradiance, texels of each
+// level. Texels are kept as floats: a cached bake is bit for bit the bake, so a picture does not depend on
+// the cache.
+constexpr EntryKind kKind{
+    .magic = {'P', 'a', 't', 'i', 'n', 'a', 'I', 'B'}, .format = 2, .extension = ".patina-ibl"};
+enum Count : std::uint8_t { Levels, Lights, NoteBytes, IrradianceSize };  ///< of EntryCounts
+constexpr std::uint32_t kMaxCount = 4096;                                 ///< levels, or lights, in one entry
+constexpr std::size_t kMostLevels = 64;  ///< an entry that would grow beyond starts anew
 constexpr std::uint32_t kMaxNoteBytes = 1 << 20;
 constexpr std::uint32_t kMaxFace = 8192;
-constexpr std::size_t kKeyLength = 32;
-constexpr const char* kExtension = ".patina-ibl";
-constexpr const char* kTemporary = ".patina-tmp";
 
-struct Header {
-    std::array<char, 8> magic = kMagic;
-    std::uint32_t format = kFormat;
-    std::uint32_t byte_order = kByteOrder;
-    std::array<char, kKeyLength> key{};
-    std::uint64_t file_bytes = 0;
-    std::uint64_t payload_hash = 0;  ///< of everything after the header
-    std::uint32_t level_count = 0;
-    std::uint32_t light_count = 0;
-    std::uint32_t note_bytes = 0;
-    std::uint32_t irradiance_size = 0;
-    std::uint64_t header_hash = 0;  ///< of the fields above
-};
 struct LevelEntry {
     float roughness = 0.0f;
     std::uint32_t size = 0;
 };
-static_assert(std::is_trivially_copyable_v<Header> && sizeof(Header) == 88);
 static_assert(std::is_trivially_copyable_v<ExtractedLight> && sizeof(ExtractedLight) == 28);
 static_assert(std::is_trivially_copyable_v<glm::vec3> && sizeof(glm::vec3) == 12);
 
-std::uint64_t hash_of(const void* data, std::size_t size, std::uint64_t seed = 0) {
-    return hash_bytes({static_cast<const std::byte*>(data), size}, seed);
-}
-
-std::uint64_t header_hash(const Header& header) { return hash_of(&header, offsetof(Header, header_hash)); }
-
 std::uint64_t cube_texels(std::uint64_t size) { return 6 * size * size; }
 
-/// A section of the file, wherever it lives in memory.
-struct Section {
-    void* data;
-    std::size_t bytes;
-};
-template <class T>
-Section section(std::vector<T>& values) {
-    return {values.data(), values.size() * sizeof(T)};
+bool is_plausible(const EntryCounts& counts) {
+    return counts[Levels] <= kMaxCount && counts[Lights] <= kMaxCount && counts[NoteBytes] <= kMaxNoteBytes &&
+           counts[IrradianceSize] <= kMaxFace;
 }
 
-/// What stands between header and texels, and the texels' place in the result.
-struct Body {
-    std::vector<LevelEntry> entries;
-    std::vector<char> notes;
-};
-std::vector<Section> sections(Body& body, BakedEnvironment& baked) {
-    std::vector<Section> all = {section(body.entries), section(baked.lights), section(body.notes),
-                                section(baked.irradiance.texels)};
-    for (PrefilteredLevel& level : baked.levels) all.push_back(section(level.cube.texels));
-    return all;
-}
-
-fs::path entry_path(const BakeCache& cache, const std::string& key) {
-    return cache.folder / (key + kExtension);
-}
-
-bool is_plausible(const Header& header, const std::string& key, std::uint64_t actual_bytes) {
-    return header.magic == kMagic && header.format == kFormat && header.byte_order == kByteOrder &&
-           header.header_hash == header_hash(header) && header.file_bytes == actual_bytes &&
-           key == std::string(header.key.data(), kKeyLength) && header.level_count <= kMaxCount &&
-           header.light_count <= kMaxCount && header.note_bytes <= kMaxNoteBytes &&
-           header.irradiance_size <= kMaxFace;
-}
-
-/// Reads into memory that is already sized, and continues the hash.
-bool read_section(std::ifstream& in, Section part, std::uint64_t& hash) {
-    if (!in.read(static_cast<char*>(part.data), std::streamsize(part.bytes))) return false;
-    hash = hash_of(part.data, part.bytes, hash);
-    return true;
-}
-
-/// True if the sizes the entries promise add up to exactly the file's size. Nothing large is allocated before
-/// this holds.
-bool sizes_add_up(const Header& header, const std::vector<LevelEntry>& entries) {
-    std::uint64_t bytes = sizeof(Header) + entries.size() * sizeof(LevelEntry) +
-                          header.light_count * sizeof(ExtractedLight) + header.note_bytes +
-                          cube_texels(header.irradiance_size) * sizeof(glm::vec3);
+/// True if the sizes the entries promise add up to exactly what is left of the file.
+bool sizes_add_up(const EntryReader& reader, const std::vector<LevelEntry>& entries) {
+    const EntryCounts& counts = reader.counts();
+    std::uint64_t bytes = counts[Lights] * sizeof(ExtractedLight) + counts[NoteBytes] +
+                          cube_texels(counts[IrradianceSize]) * sizeof(glm::vec3);
     for (const LevelEntry& entry : entries) {
         if (entry.size > kMaxFace) return false;
         bytes += cube_texels(entry.size) * sizeof(glm::vec3);
     }
-    return bytes == header.file_bytes;
+    return bytes == reader.left();
 }
 
-void split_notes(const std::vector<char>& bytes, std::vector<std::string>& notes) {
-    for (auto begin = bytes.begin(); begin != bytes.end();) {
-        const auto end = std::find(begin, bytes.end(), '\0');
-        notes.emplace_back(begin, end);
-        begin = end == bytes.end() ? end : end + 1;
-    }
-}
-
-std::string hex(std::uint64_t value) {
-    std::string digits(16, '0');
-    for (int i = 0; i < 16; ++i) digits[i] = "0123456789abcdef"[(value >> (60 - 4 * i)) & 15];
-    return digits;
-}
-
-Header make_header(const std::string& key, Body& body, BakedEnvironment& baked) {
-    Header header;
-    assert(key.size() == kKeyLength);
-    std::copy(key.begin(), key.end(), header.key.begin());
-    header.level_count = std::uint32_t(body.entries.size());
-    header.light_count = std::uint32_t(baked.lights.size());
-    header.note_bytes = std::uint32_t(body.notes.size());
-    header.irradiance_size = std::uint32_t(baked.irradiance.size);
-    header.file_bytes = sizeof(Header);
-    for (const Section& part : sections(body, baked)) {
-        header.file_bytes += part.bytes;
-        header.payload_hash = hash_of(part.data, part.bytes, header.payload_hash);
-    }
-    header.header_hash = header_hash(header);
-    return header;
-}
-
-bool write_file(const fs::path& file, const Header& header, const std::vector<Section>& parts) {
-    std::ofstream out(file, std::ios::binary);
-    out.write(reinterpret_cast<const char*>(&header), sizeof(header));
-    for (const Section& part : parts)
-        out.write(static_cast<const char*>(part.data), std::streamsize(part.bytes));
-    out.close();
-    return !out.fail();
-}
-
-/// Oldest entries out until the rest fits, and what writers that died left behind. Other processes may do the
-/// same at the same time: what is already gone is no error.
-void trim(const BakeCache& cache, const fs::path& keep) {
-    struct Entry {
-        fs::path path;
-        fs::file_time_type time;
-        std::uint64_t bytes;
-    };
-    std::error_code error;
-    std::vector<Entry> entries;
-    std::uint64_t total = 0;
-    const auto now = fs::file_time_type::clock::now();
-    for (fs::directory_iterator it(cache.folder, error), end; !error && it != end; it.increment(error)) {
-        std::error_code gone;
-        const Entry entry{it->path(), it->last_write_time(gone), it->file_size(gone)};
-        if (gone) continue;
-        if (entry.path.extension() == kTemporary && now - entry.time > std::chrono::hours(1))
-            fs::remove(entry.path, gone);
-        if (entry.path.extension() != kExtension) continue;
-        total += entry.bytes;
-        if (entry.path != keep) entries.push_back(entry);
-    }
-    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.time < b.time; });
-    for (const Entry& entry : entries) {
-        if (total <= cache.max_bytes) break;
-        std::error_code gone;
-        fs::remove(entry.path, gone);
-        total -= entry.bytes;
-    }
-}
+CubeMap empty_cube(std::uint32_t size) { return {int(size), std::vector<glm::vec3>(cube_texels(size))}; }
 
 const PrefilteredLevel* find_level(const BakedEnvironment& baked, float roughness) {
     for (const PrefilteredLevel& level : baked.levels)
@@ -193,96 +54,60 @@ const PrefilteredLevel* find_level(const BakedEnvironment& baked, float roughnes
     return nullptr;
 }
 
-std::string cannot_keep(const BakeCache& cache, const std::string& why) {
-    return "The baked light could not be kept in " + cache.folder.string() + " (" + why +
-           "); it will be computed again next time.";
-}
-
 }  // namespace
 
-std::string bake_key(const Environment& environment, const BakeSettings& settings) {
-    std::vector<std::uint64_t> words = {
-        std::uint64_t(kBakerVersion),          environment.content_hash,
-        std::uint64_t(environment.width),      std::uint64_t(environment.height),
-        std::uint64_t(settings.max_face_size), std::uint64_t(settings.extract_lights)};
+std::string bake_key(std::uint64_t content_hash, glm::ivec2 size_px, const BakeSettings& settings) {
+    std::vector<std::uint64_t> words = {std::uint64_t(kBakerVersion),
+                                        content_hash,
+                                        std::uint64_t(size_px.x),
+                                        std::uint64_t(size_px.y),
+                                        std::uint64_t(settings.max_face_size),
+                                        std::uint64_t(settings.extract_lights)};
     if (!settings.face_sizes.empty())
         for (const float roughness : settings.roughness)
             words.push_back(std::bit_cast<std::uint32_t>(roughness));
     for (const int size : settings.face_sizes) words.push_back(std::uint64_t(size) << 32);
-    const std::size_t bytes = words.size() * sizeof(words[0]);
-    return hex(hash_of(words.data(), bytes, 1)) + hex(hash_of(words.data(), bytes, 2));
+    return entry_key(words);
+}
+
+std::string bake_key(const Environment& environment, const BakeSettings& settings) {
+    return bake_key(environment.content_hash, {environment.width, environment.height}, settings);
 }
 
 std::optional<BakedEnvironment> load_baked(const BakeCache& cache, const std::string& key) {
-    const fs::path path = entry_path(cache, key);
-    std::ifstream in(path, std::ios::binary | std::ios::ate);
-    if (!in) return std::nullopt;
-    const std::streamoff end = in.tellg();
-    if (end < std::streamoff(sizeof(Header))) return std::nullopt;
-    in.seekg(0);
-
-    Header header;
-    if (!in.read(reinterpret_cast<char*>(&header), sizeof(header)) ||
-        !is_plausible(header, key, std::uint64_t(end)))
-        return std::nullopt;
-    std::uint64_t hash = 0;
-    Body body;
-    body.entries.resize(header.level_count);
-    if (!read_section(in, section(body.entries), hash) || !sizes_add_up(header, body.entries))
-        return std::nullopt;
+    std::optional<EntryReader> reader = EntryReader::open(cache, kKind, key);
+    if (!reader || !is_plausible(reader->counts())) return std::nullopt;
+    const EntryCounts& counts = reader->counts();
+    std::vector<LevelEntry> entries(counts[Levels]);
+    if (!reader->read(section_of(entries)) || !sizes_add_up(*reader, entries)) return std::nullopt;
 
     BakedEnvironment baked;
-    baked.lights.resize(header.light_count);
-    body.notes.resize(header.note_bytes);
-    baked.irradiance = {int(header.irradiance_size),
-                        std::vector<glm::vec3>(cube_texels(header.irradiance_size))};
-    for (const LevelEntry& entry : body.entries)
-        baked.levels.push_back(
-            {entry.roughness, {int(entry.size), std::vector<glm::vec3>(cube_texels(entry.size))}});
-    const std::vector<Section> parts = sections(body, baked);
-    for (std::size_t i = 1; i < parts.size(); ++i)
-        if (!read_section(in, parts[i], hash)) return std::nullopt;
-    if (hash != header.payload_hash) return std::nullopt;
-    split_notes(body.notes, baked.notes);
-
-    std::error_code ignored;  // the order of removal is by last use, where the folder lets us say so
-    fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
+    baked.lights.resize(counts[Lights]);
+    std::vector<char> notes(counts[NoteBytes]);
+    baked.irradiance = empty_cube(counts[IrradianceSize]);
+    bool is_whole = reader->read(section_of(baked.lights)) && reader->read(section_of(notes)) &&
+                    reader->read(section_of(baked.irradiance.texels));
+    for (const LevelEntry& entry : entries) {
+        baked.levels.push_back({entry.roughness, empty_cube(entry.size)});
+        is_whole = is_whole && reader->read(section_of(baked.levels.back().cube.texels));
+    }
+    if (!is_whole || !reader->finish()) return std::nullopt;
+    baked.notes = split_texts(notes);
     return baked;
 }
 
 std::string save_baked(const BakeCache& cache, const std::string& key, const BakedEnvironment& baked) {
-    BakedEnvironment& source =
-        const_cast<BakedEnvironment&>(baked);  // NOLINT: sections() serves reading too; only read here
-    Body body;
+    std::vector<LevelEntry> entries;
     for (const PrefilteredLevel& level : baked.levels)
-        body.entries.push_back({level.roughness, std::uint32_t(level.cube.size)});
-    for (const std::string& note : baked.notes) {
-        body.notes.insert(body.notes.end(), note.begin(), note.end());
-        body.notes.push_back('\0');
-    }
-    const Header header = make_header(key, body, source);
-    if (header.file_bytes > cache.max_bytes)
-        return cannot_keep(cache, "it is larger than the cache may grow");
-
-    std::error_code error;
-    fs::create_directories(cache.folder, error);
-    if (error) return cannot_keep(cache, error.message());
-    const fs::path target = entry_path(cache, key);
-    std::random_device random;
-    const fs::path temporary =
-        cache.folder / (key + "." + hex((std::uint64_t(random()) << 32) | random()) + kTemporary);
-    if (!write_file(temporary, header, sections(body, source))) {
-        fs::remove(temporary, error);
-        return cannot_keep(cache, "it cannot be written");
-    }
-    fs::rename(temporary, target, error);
-    if (error) {
-        const std::string why = error.message();
-        fs::remove(temporary, error);
-        return cannot_keep(cache, why);
-    }
-    trim(cache, target);
-    return {};
+        entries.push_back({level.roughness, std::uint32_t(level.cube.size)});
+    const std::vector<char> notes = joined_texts(baked.notes);
+    std::vector<std::span<const std::byte>> sections{section_of(std::as_const(entries)),
+                                                     section_of(baked.lights), section_of(notes),
+                                                     section_of(baked.irradiance.texels)};
+    for (const PrefilteredLevel& level : baked.levels) sections.push_back(section_of(level.cube.texels));
+    const EntryCounts counts{std::uint32_t(entries.size()), std::uint32_t(baked.lights.size()),
+                             std::uint32_t(notes.size()), std::uint32_t(baked.irradiance.size)};
+    return save_entry(cache, kKind, key, counts, sections);
 }
 
 std::optional<BakedEnvironment> selected(const BakedEnvironment& entry, const BakeSettings& settings) {

@@ -1,24 +1,23 @@
-// Baked light on disk: content-addressed, bounded, never trusted. The only file access in renderer/ibl.
+// Baked light on disk: content-addressed, bounded, never trusted.
 #pragma once
 
 #include "renderer/ibl/bake.h"
+#include "renderer/ibl/cache_entry_io.h"
+
+#include <glm/vec2.hpp>
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 
 namespace patina {
 
-struct BakeCache {
-    std::filesystem::path folder;                        ///< created when first written
-    std::uint64_t max_bytes = std::uint64_t{512} << 20;  ///< oldest entries are removed beyond this
-};
-
 /// Key over the environment's content hash, the settings and the baker's version. Which levels are asked for
 /// and whether irradiance is, does not enter (unless their sizes are given): one entry holds what was ever
 /// baked of an environment, and grows.
 std::string bake_key(const Environment& environment, const BakeSettings& settings);
+/// The same of an environment that is known by its content_hash and size alone.
+std::string bake_key(std::uint64_t content_hash, glm::ivec2 size_px, const BakeSettings& settings);
 
 /// nullopt when absent, truncated, foreign, of another version or with a wrong checksum: then bake again.
 std::optional<BakedEnvironment> load_baked(const BakeCache& cache, const std::string& key);

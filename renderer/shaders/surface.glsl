@@ -34,12 +34,17 @@ MapTexels read_maps(vec2 st) {
     m.albedo = texture(albedo_map, st).rgb;
 #endif
 #ifdef HAS_ROUGHNESS_MAP
-    m.roughness = dot(texture(roughness_map, st), roughness);
+    vec4 scalars = texture(roughness_map, st);
+    m.roughness = dot(scalars, roughness);
 #endif
-#ifdef HAS_METALLIC_MAP
+#ifdef METALLIC_WITH_ROUGHNESS   // in the same picture
+    m.metallic = dot(scalars, metallic);
+#elif defined(HAS_METALLIC_MAP)
     m.metallic = dot(texture(metallic_map, st), metallic);
 #endif
-#ifdef HAS_AO_MAP
+#ifdef AO_WITH_ROUGHNESS
+    m.ao = dot(scalars, ao);
+#elif defined(HAS_AO_MAP)
     m.ao = dot(texture(ao_map, st), ao);
 #endif
 #ifdef HAS_EMISSION_MAP

@@ -1,5 +1,5 @@
 // Fragments laid side by side, each once however many samples it covers. With FRAGMENTS: instead, which triangle lies under
-// each of a pixel's samples.
+// each of a pixel's samples. With RAYS: of the layers the one that rays have.
 #ifdef SAMPLES
 #define Samples sampler2DMS
 #else
@@ -18,8 +18,15 @@ void main() {
 }
 #else
 uniform usampler2D fragment_places;   // x, y and sample
-uniform Samples stored_normals;
 uniform Samples stored_views;
+#ifdef RAYS
+out vec4 sorted_ray;
+void main() {
+    uvec3 place = texelFetch(fragment_places, ivec2(gl_FragCoord.xy), 0).rgb;
+    sorted_ray = texelFetch(stored_views, ivec2(place.xy), int(place.z));
+}
+#else
+uniform Samples stored_normals;
 uniform Samples stored_turns;
 layout(location = 0) out vec4 sorted_normal;
 layout(location = 1) out vec4 sorted_view;
@@ -50,4 +57,5 @@ void main() {
     sorted_emission = texelFetch(stored_emissions, at, i);
 #endif
 }
+#endif
 #endif

@@ -93,6 +93,17 @@ TEST(ReportCommand, writes_a_page_and_a_pdf) {
     EXPECT_TRUE(work.read("r.pdf").starts_with("%PDF-"));
 }
 
+TEST(ReportCommand, credits_whom_an_environments_file_names) {
+    const Workspace work;
+    Image image = make_image(8, 4, 3, PixelType::F32);
+    for (int i = 0; i < 8 * 4 * 3; ++i) set_texel(image, i / 3 % 8, i / 24, i % 3, 0.5f);
+    save_image(work.path("court.exr"), image, {{"owner", "Ada Lovelace"}});
+    work.write("sheet.json", R"({"rows": [{"preset": "-"}], "columns": [{"environment": "court.exr"}]})");
+    const Outcome page = work.run({"report", "sheet.json", "-o", "r.html", "--size", "32", "--no-hints"});
+    ASSERT_EQ(page.exit_status, 0) << page.errors;
+    EXPECT_NE(work.read("r.html").find("8×4 pixels; Ada Lovelace"), std::string::npos);
+}
+
 TEST(ReportCommand, says_what_it_can_write_before_it_works) {
     const Workspace work;
     work.write("sheet.json", kSheet);

@@ -1,9 +1,9 @@
 """A white GGX sphere under a panorama, rendered by Blender's Cycles as Patina's default camera sees it.
 
-    blender -b --factory-startup -P tests/cycles/render_sphere.py -- PANORAMA ROUGHNESS SIZE SAMPLES OUT.exr
+    blender -b --factory-startup -P tests/cycles/render_sphere.py -- PANORAMA DISTRIBUTION ROUGHNESS SIZE SAMPLES OUT.exr
 
-Cycles' "GGX" glossy closure bounces once between microfacets, has no Fresnel term and (up to 3.x) the separable
-Smith shadowing G1(V) G1(L). Texels are constant (closest), the pixel filter is a box one pixel wide, nothing is
+DISTRIBUTION: GGX bounces once between microfacets, has no Fresnel term and (up to 3.x) the separable Smith shadowing
+G1(V) G1(L); MULTI_GGX bounces until the light has left (Heitz 2016) and loses none. Texels are constant (closest), the pixel filter is a box one pixel wide, nothing is
 clamped: as in Patina's reference.
 """
 
@@ -12,20 +12,20 @@ import sys
 
 import bpy
 
-panorama, roughness, size, samples, out = sys.argv[sys.argv.index("--") + 1:]
+panorama, distribution, roughness, size, samples, out = sys.argv[sys.argv.index("--") + 1:]
 
 bpy.ops.object.select_all(action="SELECT")
 bpy.ops.object.delete()
 
 # Patina's (x, y, z) is Blender's (-z, -x, y): the panorama's middle then lies at -Z here and +X there.
-bpy.ops.mesh.primitive_uv_sphere_add(segments=1024, ring_count=512, radius=1.0)
+bpy.ops.mesh.primitive_uv_sphere_add(segments=256, ring_count=128, radius=1.0)
 bpy.ops.object.shade_smooth()
 material = bpy.data.materials.new("ggx")
 material.use_nodes = True
 nodes, links = material.node_tree.nodes, material.node_tree.links
 nodes.clear()
 glossy = nodes.new("ShaderNodeBsdfGlossy")
-glossy.distribution = "GGX"
+glossy.distribution = distribution
 glossy.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
 glossy.inputs["Roughness"].default_value = float(roughness)  # alpha is its square
 links.new(glossy.outputs[0], nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])

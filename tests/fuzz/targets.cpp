@@ -3,6 +3,7 @@
 #include "app/autosave.h"
 #include "app/bake_files.h"
 #include "app/comparison_file.h"
+#include "app/kept_environment.h"
 #include "app/settings.h"
 #include "materials/material_io.h"
 #include "renderer/core/hash.h"
@@ -101,9 +102,9 @@ void read_mesh(const std::string& path, std::string_view bytes) {
             require(std::isfinite(x), "a mesh holds a number that is not finite");
 }
 
-/// An entry whose header is made to agree with itself: what lies behind the checksum is reached, too.
-void read_cache(const std::string& path, std::string_view bytes) {
-    const std::string key(32, 'a');
+/// An entry whose header is made to agree with itself: what lies behind the checksum is reached, too. The
+/// cache that holds it.
+BakeCache cache_with(const std::string& path, std::string_view bytes, const std::string& key) {
     const fs::path folder = fs::path(path).parent_path() / "cache";
     fs::create_directories(folder);
     constexpr std::size_t header = 88, key_at = 16, size_at = 48, hash_at = 80;
@@ -115,11 +116,26 @@ void read_cache(const std::string& path, std::string_view bytes) {
         const std::uint64_t hash = hash_bytes(std::as_bytes(std::span(entry.data(), hash_at)));
         std::memcpy(entry.data() + hash_at, &hash, sizeof hash);
     }
-    write_bytes((folder / (key + ".patina-ibl")).string(), entry);
-    if (const auto baked = load_baked(BakeCache{.folder = folder}, key))
+    write_bytes((folder / (key + fs::path(path).extension().string())).string(), entry);
+    return {.folder = folder};
+}
+
+void read_cache(const std::string& path, std::string_view bytes) {
+    const std::string key(32, 'a');
+    if (const auto baked = load_baked(cache_with(path, bytes, key), key))
         for (const PrefilteredLevel& level : baked->levels)
             require(level.cube.texels.size() == std::size_t(6) * level.cube.size * level.cube.size,
                     "a level's texels do not match its size");
+}
+
+void read_environment_cache(const std::string& path, std::string_view bytes) {
+    const std::string key(32, 'a');
+    const auto kept = load_kept(cache_with(path, bytes, key), key);
+    if (!kept) return;
+    require(!kept->panorama.levels.empty(), "a panorama without levels");
+    for (const PanoramaLevels::Level& level : kept->panorama.levels)
+        require(level.rgba.size() == std::size_t(4) * level.width * level.height,
+                "a level's texels do not match its size");
 }
 
 /// bake.json beside two good face strips.
@@ -144,7 +160,7 @@ constexpr Target kTargets[] = {
     {"hdr", "x.hdr", read_picture},        {"obj", "x.obj", read_mesh},
     {"ply", "x.ply", read_mesh},           {"off", "x.off", read_mesh},
     {"stl", "x.stl", read_mesh},           {"cache", "x.patina-ibl", read_cache},
-    {"bake", "bake.json", read_bake},
+    {"bake", "bake.json", read_bake},      {"kept", "x.patina-environment", read_environment_cache},
 };
 
 }  // namespace
@@ -161,9 +177,9 @@ void try_bytes(const Target& target, std::string_view bytes) {
     try {
         target.read((folder.path / target.file).string(), bytes);
     } catch (const std::runtime_error& error) {
-        const std::string_view sentence = error.what();
-        require(!sentence.empty() && sentence.find('\n') == std::string_view::npos,
-                "an error is not one sentence");
+        const std::string sentence = error.what();
+        if (sentence.empty() || sentence.find('\n') != std::string::npos)
+            defect("an error is not one sentence: \"" + sentence + "\"");
     } catch (const std::exception& error) {
         defect(std::string("an exception of another kind: ") + error.what());
     }

@@ -55,9 +55,9 @@ forbid 'ImGui calls only in ui and app/window.cpp' 'ImGui::|<imgui' $(sources ap
 forbid 'threads and mutexes only in app/jobs' \
     'std::(jthread|thread|mutex|async|condition_variable)|<(thread|mutex|future|condition_variable)>' \
     $(sources app renderer ui materials -- app/jobs.cpp app/jobs.h)
-forbid 'files are opened only in *_io.cpp and the bake cache' \
+forbid 'files are opened only in *_io.cpp' \
     'std::[io]?fstream|<fstream>|[^a-z_]fopen\(' \
-    $(sources app renderer ui materials -- _io.cpp ibl/cache.cpp app/bare_window.cpp)
+    $(sources app renderer ui materials -- _io.cpp app/bare_window.cpp)
 forbid 'exceptions are caught only in main, jobs, plug-in calls and shader reload' '(^|[^a-z_])catch \(' \
     $(sources renderer ui materials -- _io.cpp lobes/fit_main.cpp)
 # But the system's file manager, by the one function that shows a folder in it; ffmpeg, to join frames where a video is

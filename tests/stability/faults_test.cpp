@@ -119,9 +119,9 @@ TEST(Faults, settings_and_recovery_files_survive_a_kill_at_any_operation) {
     EXPECT_GE(orphans, 2);  // the whole one, and those killed after the rename
 }
 
-TEST(SlowFaults, a_cache_write_that_fails_or_is_killed_is_computed_again) {
+void expect_computed_again(const std::string& what) {
     const Folder folder;
-    const std::vector<std::string> words{"light", (folder.path / "cache").string()};
+    const std::vector<std::string> words{what, (folder.path / "cache").string()};
     const int count = operations(folder, words);
     ASSERT_GE(count, 3);
     for (const std::string kind : {"kill", "full", "broken"})
@@ -136,6 +136,11 @@ TEST(SlowFaults, a_cache_write_that_fails_or_is_killed_is_computed_again) {
             const Ended third = save(folder, words, "none", 0);
             EXPECT_EQ(third.output, "found\n") << kind << " at " << at;
         }
+}
+
+TEST(SlowFaults, a_cache_write_that_fails_or_is_killed_is_computed_again) {
+    expect_computed_again("light");
+    expect_computed_again("environment");
 }
 
 TEST(SlowFaults, a_picture_is_written_whole_or_not_at_all) {
@@ -179,6 +184,7 @@ TEST(Faults, folders_that_are_gone_or_closed_cost_one_sentence) {
           {"picture", "/proc/a.exr", "1"},
           {"settings", "/proc/nothing", "x"},
           {"light", "/proc/nothing"},
+          {"environment", "/proc/nothing"},
           {"preset", "/dev/full", "x"},
           {"preset", folder.path.string(), "x"}}) {
         const Ended ended = save(folder, words, "none", 0);
@@ -236,13 +242,16 @@ TEST(Faults, processes_that_share_a_cache_do_not_disturb_each_other) {
     const Folder folder;
     const std::string cache = (folder.path / "cache").string();
     std::vector<Child> children;
-    for (int i = 0; i < 6; ++i) children.push_back(start_process({PATINA_SAVER, "light", cache}, {}));
+    for (int i = 0; i < 6; ++i)
+        for (const char* what : {"light", "environment"})
+            children.push_back(start_process({PATINA_SAVER, what, cache}, {}));
     for (Child& child : children) {
         const Ended ended = wait_for(child);
         EXPECT_EQ(ended.exit_status, 0) << ended.errors;
     }
-    EXPECT_EQ(files_below(folder.path).size(), 1u);
-    EXPECT_EQ(run_process({PATINA_SAVER, "light", cache}, {}).output, "found\n");
+    EXPECT_EQ(files_below(folder.path).size(), 2u);
+    for (const char* what : {"light", "environment"})
+        EXPECT_EQ(run_process({PATINA_SAVER, what, cache}, {}).output, "found\n");
 }
 
 }  // namespace

@@ -378,6 +378,41 @@ TEST(SlowEditor, goes_on_while_a_light_bakes) {
                                   "turns>8\nexpect lights_baked>0\nwait idle\nexpect clean\n"));
 }
 
+/// A counter of a ledger that --stats wrote.
+std::uint64_t counted(const fs::path& stats, const std::string& counter) {
+    const std::string text = read_text(stats);
+    const std::size_t at = text.find('"' + counter + "\":");
+    EXPECT_NE(at, std::string::npos) << text;
+    return std::strtoull(text.c_str() + at + counter.size() + 3, nullptr, 10);
+}
+
+TEST(Editor, decodes_an_environment_once_and_never_again) {
+    const Folder home;
+    start_small(home, 500, 360);
+    Image room = make_image(64, 32, 3, PixelType::F32);
+    for (int y = 0; y < room.height; ++y)
+        for (int x = 0; x < room.width; ++x) set_texel(room, x, y, x % 3, 0.5f + 0.02f * float(y));
+    save_image(home / "room.exr", room);
+    const auto visit = [&](std::uint64_t decoded, std::uint64_t baked) {
+        const fs::path stats = home / "stats.json";
+        Program program(
+            home,
+            drive_arguments(home, "wait idle\nexpect environment~room.exr\n",
+                            {"-", "--env", (home / "room.exr").string(), "--stats", stats.string()}),
+            {{"PATINA_CACHE_DIR", (home / "cache").string()}});
+        EXPECT_DRIVEN(program.wait());
+        EXPECT_EQ(counted(stats, "environments_from_disk"), 1 - decoded);
+        EXPECT_EQ(counted(stats, "environments_decoded"), decoded);
+        EXPECT_EQ(counted(stats, "levels_baked"), baked);
+    };
+    visit(1, 1);
+    visit(0, 0);
+    set_texel(room, 3, 3, 0, 7.0f);  // another picture in the same place
+    save_image(home / "room.exr", room);
+    visit(1, 1);
+    visit(0, 0);
+}
+
 TEST(Drive, names_the_line_of_a_script_that_fails) {
     const Folder home;
     const Outcome failed = drive(home, "wait idle\nexpect roughness=0.9\n");

@@ -1,6 +1,7 @@
 // Saves one thing and ends, so that a test can let it go wrong: saver preset FILE NAME | settings FOLDER NAME
-// | recovery FOLDER NAME | light FOLDER | picture FILE VALUE
+// | recovery FOLDER NAME | light FOLDER | environment FOLDER | picture FILE VALUE
 #include "app/autosave.h"
+#include "app/kept_environment.h"
 #include "app/settings.h"
 #include "materials/material_io.h"
 #include "renderer/core/image_io.h"
@@ -49,6 +50,14 @@ void save(const std::string& what, const std::string& where, const std::string& 
         const auto result = cached_bake(grey(0.5f), settings, {}, BakeCache{.folder = where});
         if (!result->note.empty()) throw std::runtime_error(result->note);
         std::puts(result->from_disk ? "found" : "baked");
+    } else if (what == "environment") {
+        const BakeCache cache{.folder = where};
+        const std::string key = kept_key("grey", 1);
+        const bool found = load_kept(cache, key).has_value();
+        const std::string note =
+            found ? "" : save_kept(cache, key, facts_of(grey(0.5f)), make_panorama_levels(grey(0.5f)));
+        if (!note.empty()) throw std::runtime_error(note);
+        std::puts(found ? "found" : "baked");
     } else if (what == "picture") {
         Image image = make_image(64, 64, 3, PixelType::F32);
         for (int i = 0; i < 64; ++i) set_texel(image, i, i, 0, std::stof(value));

@@ -42,17 +42,38 @@ struct Workshop {
                     [this](const std::string&) {
                         ++decoded;
                         return sky();
-                    }};
+                    },
+                .fingerprint = [this](const std::string&) { return fingerprint; }};
     }
     std::optional<ReadyLight> get(const LightOrder& order) {
         return get_light(registry, order, settings, cache, {});
+    }
+    /// As whoever shows the light does; all of it is kept.
+    std::optional<ReadyLight> visit(const LightOrder& order) {
+        const auto ready = get(order);
+        EXPECT_EQ(keep_light(registry, order, *ready, *ready->light, cache), "");
+        return ready;
     }
 
     Registry registry;
     BakeSettings settings{.max_face_size = 16, .face_sizes = {}};
     BakeCache cache{.folder = fs::temp_directory_path() / ("patina-light-" + std::to_string(::getpid()))};
     int decoded = 0;
+    std::optional<std::uint64_t> fingerprint;  ///< of "sky"; none: it is not kept
 };
+
+void expect_same(const PreparedLight& a, const PreparedLight& b) {
+    EXPECT_EQ(a.panorama.exponent, b.panorama.exponent);
+    ASSERT_EQ(a.panorama.levels.size(), b.panorama.levels.size());
+    for (std::size_t i = 0; i < a.panorama.levels.size(); ++i)
+        EXPECT_EQ(a.panorama.levels[i].rgba, b.panorama.levels[i].rgba);
+    EXPECT_EQ(a.levels.roughness, b.levels.roughness);
+    EXPECT_EQ(a.levels.sharpest, b.levels.sharpest);
+    ASSERT_EQ(a.levels.levels.size(), b.levels.levels.size());
+    for (std::size_t i = 0; i < a.levels.levels.size(); ++i)
+        EXPECT_EQ(a.levels.levels[i].rgba, b.levels.levels[i].rgba);
+    EXPECT_EQ(a.levels.irradiance.rgba, b.levels.irradiance.rgba);
+}
 
 NeededLight one_roughness(float roughness, bool irradiance = true) {
     return {{{roughness, roughness}}, irradiance};
@@ -120,8 +141,8 @@ TEST(DemandedLight, bakes_nothing_for_a_mirror) {
     EXPECT_FALSE(fs::exists(shop.cache.folder));
     EXPECT_EQ(mirror->light->levels.levels.size(), 1u);  // one texel, so that there is something to bind
     EXPECT_EQ(mirror->light->levels.sharpest, kSharpestLevel);
-    EXPECT_NEAR(mirror->held->mean.y, 1.0f, 1e-5f);
-    EXPECT_NEAR(mirror->held->mean.z, 2.0f, 1e-5f);
+    EXPECT_NEAR(mirror->held->source.mean.y, 1.0f, 1e-5f);
+    EXPECT_NEAR(mirror->held->source.mean.z, 2.0f, 1e-5f);
 }
 
 TEST(DemandedLight, is_drawn_with_coarse_levels_only_where_they_are_nearly_as_good) {
@@ -146,6 +167,96 @@ TEST(DemandedLight, reads_a_large_source_again_to_add_to_it) {
     order.needed = one_roughness(0.8f);
     EXPECT_EQ(shop.get(order)->levels_baked, 2);
     EXPECT_EQ(shop.decoded, 2);
+}
+
+TEST(KeptLight, is_neither_decoded_nor_filtered_at_the_second_visit_and_is_the_same) {
+    Workshop shop;
+    shop.fingerprint = 1;
+    const LightOrder order{.id = "sky", .needed = one_roughness(0.37f)};
+    const auto first = shop.visit(order);
+    EXPECT_TRUE(first->decoded);
+    EXPECT_FALSE(first->was_kept);
+    const auto second = shop.visit(order);
+    EXPECT_FALSE(second->decoded);
+    EXPECT_TRUE(second->was_kept);
+    EXPECT_TRUE(second->from_disk);
+    EXPECT_EQ(second->levels_baked, 0);
+    EXPECT_TRUE(second->keep_as.empty());
+    EXPECT_EQ(shop.decoded, 1);
+    expect_same(*first->light, *second->light);
+    EXPECT_EQ(second->held->source.title, "Sky");
+    EXPECT_EQ(second->held->source.mean, first->held->source.mean);
+    EXPECT_EQ(second->notes, first->notes);
+}
+
+TEST(KeptLight, is_decoded_for_a_level_that_is_not_there) {
+    Workshop shop;
+    shop.fingerprint = 1;
+    shop.visit({.id = "sky", .needed = one_roughness(0.37f)});
+    const auto other = shop.visit({.id = "sky", .needed = one_roughness(0.7f), .first_light = true});
+    EXPECT_TRUE(other->was_kept);
+    EXPECT_TRUE(other->is_first_light);
+    EXPECT_EQ(shop.decoded, 2);
+    LightOrder order{.id = "sky", .needed = one_roughness(0.37f)};
+    order.held = shop.visit(order)->held;  // ready from the disk, without its texels
+    EXPECT_EQ(shop.decoded, 2);
+    EXPECT_FALSE(order.held->environment);
+    order.needed = one_roughness(0.8f);
+    const auto added = shop.visit(order);
+    EXPECT_TRUE(added->decoded);
+    EXPECT_EQ(added->levels_baked, 2);
+    EXPECT_TRUE(added->held->environment);
+    order.held = nullptr;
+    const auto again = shop.visit(order);  // what was added lies on the disk now
+    EXPECT_FALSE(again->decoded);
+    EXPECT_EQ(again->levels_baked, 0);
+}
+
+TEST(KeptLight, serves_a_mirror_without_any_bake) {
+    Workshop shop;
+    shop.fingerprint = 1;
+    shop.visit({.id = "sky", .needed = NeededLight{}});
+    const auto mirror = shop.visit({.id = "sky", .needed = NeededLight{}});
+    EXPECT_TRUE(mirror->was_kept);
+    EXPECT_EQ(shop.decoded, 1);
+}
+
+TEST(KeptLight, is_made_again_when_the_source_changed_or_the_entry_is_damaged) {
+    Workshop shop;
+    shop.fingerprint = 1;
+    const LightOrder order{.id = "sky", .needed = one_roughness(0.37f)};
+    const auto first = shop.visit(order);
+    shop.fingerprint = 2;
+    EXPECT_TRUE(shop.visit(order)->decoded);
+    EXPECT_FALSE(shop.visit(order)->decoded);
+    for (const auto& entry : fs::directory_iterator(shop.cache.folder)) fs::resize_file(entry, 200);
+    const auto again = shop.visit(order);
+    EXPECT_TRUE(again->decoded);
+    EXPECT_EQ(again->levels_baked, first->levels_baked);
+    expect_same(*first->light, *again->light);
+    EXPECT_FALSE(shop.visit(order)->decoded);
+}
+
+TEST(KeptLight, is_not_kept_of_a_source_that_changed_while_it_was_read) {
+    Workshop shop;
+    shop.fingerprint = 1;
+    const LightOrder order{.id = "sky", .needed = NeededLight{}};
+    const auto ready = shop.get(order);
+    shop.fingerprint = 2;
+    EXPECT_NE(keep_light(shop.registry, order, *ready, *ready->light, shop.cache), "");
+    EXPECT_FALSE(fs::exists(shop.cache.folder));
+}
+
+TEST(KeptLight, is_decoded_all_the_same_where_nothing_is_skipped) {
+    Workshop shop;
+    shop.fingerprint = 1;
+    const LightOrder order{.id = "sky", .needed = one_roughness(0.37f)};
+    shop.visit(order);
+    LightOrder whole = order;
+    whole.skip = false;
+    const auto ready = shop.visit(whole);
+    EXPECT_TRUE(ready->decoded);
+    expect_same(*shop.visit(order)->light, *ready->light);
 }
 
 TEST(LightWish, is_what_is_at_hand_where_that_serves) {

@@ -88,6 +88,21 @@ TEST(BuiltinEnvironments, are_the_same_on_every_run_and_differ_from_one_another)
     }
 }
 
+TEST(BuiltinEnvironments, have_changed_if_this_fails_then_raise_the_environment_version) {
+    ASSERT_EQ(kEnvironmentVersion, 1);  // of these sums
+    const std::map<std::string_view, double> sums{
+        {"studio", 546.3069}, {"sky", 826.0110},      {"sunset", 691.0366}, {"overcast", 978.6907},
+        {"night", 214.2769},  {"furnace", 1301.8611}, {"test", 701.3670}};
+    for (const BuiltinEnvironment& row : builtin_environments()) {
+        double sum = 0.0;
+        std::size_t i = 0;
+        for (const glm::vec3& texel : made(row.id, kSmall).radiance)
+            sum += (1.0 + std::cos(0.37 * double(i++))) *
+                   std::log1p(double(texel.x) + 2.0 * double(texel.y) + 3.0 * double(texel.z));
+        EXPECT_NEAR(sum, sums.at(row.id), 1e-5 * sum) << row.id;
+    }
+}
+
 void expect_same_energy(const std::vector<int>& widths) {
     for (const BuiltinEnvironment& row : builtin_environments()) {
         const glm::dvec3 reference = total_energy(made(row.id));

@@ -178,27 +178,6 @@ TEST(ImageIo, reads_every_exr_compression) {
     }
 }
 
-TEST(ImageIo, a_jpeg_comes_as_small_as_it_may_and_shows_the_same) {
-    const TempFolder folder;
-    Image image = make_image(96, 64, 3, PixelType::U8);
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            for (int c = 0; c < 3; ++c)
-                set_texel(image, x, y, c, 0.2f + 0.6f * float(c == 1 ? y : x) / 96.0f);
-    write_foreign(folder / "a.jpg", image);
-    const LoadedImage reduced = load_image_reduced(folder / "a.jpg", 16);
-    EXPECT_EQ(reduced.image.width, 24);
-    EXPECT_EQ(reduced.image.height, 16);
-    EXPECT_EQ(reduced.whole_width, 96);
-    EXPECT_EQ(reduced.whole_height, 64);
-    for (int y = 1; y < 15; ++y)
-        for (int x = 1; x < 23; ++x)
-            for (int c = 0; c < 3; ++c)
-                EXPECT_NEAR(texel(reduced.image, x, y, c),
-                            0.2f + 0.6f * (4.0f * float(c == 1 ? y : x) + 1.5f) / 96.0f, 0.02f);
-    EXPECT_EQ(load_image_reduced(folder / "a.jpg", 65).image.width, 96);
-}
-
 TEST(ImageIo, jpeg_is_close_and_grey_stays_grey) {
     const TempFolder folder;
     Image image = make_image(32, 32, 3, PixelType::U8);

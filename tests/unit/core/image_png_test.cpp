@@ -85,6 +85,14 @@ TEST(Png, interlaced_rows_come_together) {
     const Image image =
         loaded(folder, {.width = 2, .height = 2, .interlaced = 1, .rows = std::string{0, 1, 0, 2, 0, 3, 4}});
     for (int i = 0; i < 4; ++i) EXPECT_EQ(byte_of(image, i % 2, i / 2, 0), i + 1);
+    std::string given;
+    load_image_rows(folder / "a.png", {.begin = [](const Image&) {},
+                                       .row =
+                                           [&](const std::byte* row) {
+                                               given += static_cast<char>(row[0]);
+                                               given += static_cast<char>(row[1]);
+                                           }});
+    EXPECT_EQ(given, (std::string{1, 2, 3, 4}));
 }
 
 TEST(Png, sixteen_bits_keep_their_order) {

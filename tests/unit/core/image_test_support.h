@@ -78,14 +78,15 @@ inline void expect_equal(const Image& a, const Image& b) {
     EXPECT_TRUE(a.bytes == b.bytes);
 }
 
-/// The one-sentence error of loading a file, "" where it loads. The sentence must name the file and stay on
-/// one line.
+/// The one-sentence error of loading a file, "" where it loads. The sentence must name the file, once, and
+/// stay on one line.
 inline std::string load_error(const fs::path& file) {
     try {
         load_image(file);
     } catch (const std::runtime_error& error) {
         const std::string message = error.what();
         EXPECT_EQ(message.rfind(path_text(file) + ": ", 0), 0u) << message;
+        EXPECT_EQ(message.rfind(path_text(file)), 0u) << message;
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
         return message.substr(path_text(file).size() + 2);
     }

@@ -58,6 +58,10 @@ TEST(JsonText, refuses_what_is_nested_too_deep_or_too_wide) {
     EXPECT_NE(refusal("[" + deepest + "]").find("deeper than 64 levels"), std::string::npos);
     EXPECT_NE(refusal(std::string(1 << 20, '[')).find("deeper than 64 levels"), std::string::npos);
 
+    const std::string named = refusal(R"({"a\nb\u007f": )" + deepest + "}");
+    EXPECT_NE(named.find("/a b /0/0"), std::string::npos) << named;
+    EXPECT_EQ(named.find('\n'), std::string::npos) << "a key's line break would tear the sentence";
+
     std::string wide = "{";
     for (std::size_t i = 0; i < kMaxJsonMembers; ++i) wide += (i ? ",\"" : "\"") + std::to_string(i) + "\":0";
     EXPECT_NO_THROW(parsed(wide + "}"));

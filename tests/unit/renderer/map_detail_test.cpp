@@ -115,6 +115,47 @@ TEST(MapDetail, levels_that_stay_are_the_same_whether_finer_ones_are_made_or_not
                 }
 }
 
+/// Of n = 2k maps: what is kept, and a few rows for each of the 11 levels; 12 MiB are the picture.
+TEST(MapDetail, a_map_is_made_from_rows_in_little_more_memory_than_what_is_kept_of_it) {
+    constexpr int side = 2048, seen = 256;
+    for (const MapKind kind : {MapKind::Color, MapKind::Data, MapKind::Normal}) {
+        MapMaker maker(kind, ColorSpace::Srgb, seen);
+        maker.begin({.width = side, .height = side, .channels = 3, .type = PixelType::U8, .bytes = {}});
+        std::vector<std::byte> row(3 * side);
+        std::size_t most = 0;
+        for (int y = 0; y < side; ++y) {
+            for (std::size_t i = 0; i < row.size(); ++i) row[i] = std::byte((i * 31 + y * 17) % 251);
+            maker.row(row.data());
+            most = std::max(most, maker.bytes());
+        }
+        const MapLevels map = maker.take();
+        ASSERT_EQ(map.levels[0].width, seen);
+        std::size_t kept = 0;
+        for (const Image& level : map.levels) kept += level.bytes.size();
+        // Floats of three channels: the finest row, and four rows of each level below, together as wide.
+        const std::size_t rows = 3 * sizeof(float) * (side + 4 * side) + row.size();
+        EXPECT_LE(most, kept + rows);
+        EXPECT_GE(most, kept);
+    }
+}
+
+TEST(MapDetail, grey_is_grey_until_a_colour_comes) {
+    Image late = make_image(32, 32, 3, PixelType::U8);
+    for (int i = 0; i < 32 * 32; ++i)
+        for (int c = 0; c < 3; ++c) late.bytes[std::size_t(3 * i + c)] = std::byte(i * 37 % 256);
+    for (const int coloured : {0, 5, 31}) {
+        Image image = late;
+        image.bytes[std::size_t(3 * (32 * coloured + 7))] ^= std::byte(0x81);
+        const MapLevels all = make_map_levels(image, MapKind::Data, ColorSpace::Linear);
+        for (const int finest_side : {4, 8, 32}) {
+            const MapLevels some = make_map_levels(image, MapKind::Data, ColorSpace::Linear, finest_side);
+            ASSERT_EQ(some.levels[0].channels, 4);
+            for (std::size_t i = 0; i < some.levels.size(); ++i)
+                EXPECT_EQ(some.levels[i].bytes, all.levels[i + all.levels.size() - some.levels.size()].bytes);
+        }
+    }
+}
+
 TEST(MapDetail, grey_numbers_have_one_channel_where_detail_is_left_out) {
     Image grey = make_image(8, 8, 3, PixelType::U8);
     for (int i = 0; i < 64; ++i)
