@@ -19,6 +19,7 @@ constexpr int kMostAtOnce = 16;  ///< points of a slice, each of which sees the 
 constexpr int kMostOfMiddle = blocks::kMostPoints;
 static_assert(LightSampler::kMostCells == blocks::kLightCells);
 constexpr float kWeightOfOne = 1.0f / 4096.0f;
+constexpr int kMostSteps = 16;            ///< of a slice
 constexpr double kFirstTolerance = 0.02;  ///< to which all pixels are known before any is known better
 
 enum Stream : std::uint64_t { Light, Reflection, Pixel };
@@ -256,7 +257,7 @@ void Reference::draw_for(double seconds) {
     if (!state.light) return;
     const int height = state.target.size.y;
     if (state.rows_at_once == 0) {
-        state.rows_at_once = (height + 7) / 8;
+        state.rows_at_once = (height + kMostSteps / 2 - 1) / (kMostSteps / 2);
         if (state.progress.samples == 0) state.next.count = state.count_at_once();
     }
     const auto begin = std::chrono::steady_clock::now();
@@ -267,7 +268,9 @@ void Reference::draw_for(double seconds) {
         // A step that fills half the time leaves room for another that takes longer.
         const double step = std::max(spent / steps, 1e-6);
         const double ratio = std::clamp(0.5 * seconds / step, 0.25, 2.0);
-        state.rows_at_once = std::clamp(int(std::lround(state.rows_at_once * ratio)), 1, height);
+        // Each step rasterises the mesh: many small ones would do little else.
+        const int fewest = (height + kMostSteps - 1) / kMostSteps;
+        state.rows_at_once = std::clamp(int(std::lround(state.rows_at_once * ratio)), fewest, height);
         if (spent + step > seconds) return;
     }
 }

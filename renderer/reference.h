@@ -60,7 +60,7 @@ public:
 
     /// One slice; nothing once it is done.
     void draw();
-    /// As many rows of slices as fit into that time, by how long those before took; at least one row. The
+    /// As many rows of slices as fit into that time, by how long those before took; at least a few. The
     /// first slices are of one point, so that there is soon a picture. Waits for the GPU.
     void draw_for(double seconds);
     void finish();  ///< until done
