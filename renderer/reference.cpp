@@ -17,7 +17,9 @@ namespace {
 constexpr int kReplicates = ReferenceTarget::kReplicates;
 constexpr int kMostAtOnce = 16;  ///< points of a slice, each of which sees the pixel's area at one place
 constexpr int kMostOfMiddle = blocks::kMostPoints;
+static_assert(LightSampler::kMostCells == blocks::kLightCells);
 constexpr float kWeightOfOne = 1.0f / 4096.0f;
+constexpr int kMostSteps = 16;            ///< of a slice
 constexpr double kFirstTolerance = 0.02;  ///< to which all pixels are known before any is known better
 
 enum Stream : std::uint64_t { Light, Reflection, Pixel };
@@ -41,21 +43,39 @@ int longest_of(const ReferenceOptions& options) {
     return (options.max_samples + kReplicates - 1) / kReplicates;
 }
 
-blocks::PointBlock make_points(const LightSampler& light, const Place& place,
-                               const ReferenceOptions& options) {
+struct Points {
     blocks::PointBlock block{};
+    gl::LightPoints light;
+};
+Points make_points(const LightSampler& light, const Place& place, const ReferenceOptions& options) {
+    const int cells = int(light.cells().size());
+    Points points;
+    points.light.cells = cells;
+    points.light.rows.resize(std::size_t(2) * place.count * cells);
     for (int i = 0; i < place.count; ++i) {
-        glm::vec4* const rows = &block.point_rows[std::size_t(3) * i];
         const std::uint32_t index = sequence_index(place.replicate, place.first + i, longest_of(options));
         const glm::dvec3 u = scrambled_sobol(index, seed_of(options.seed, Light));
-        const LightSample sample = light.sample({u.x, u.y});
-        rows[0] = glm::vec4(glm::vec3(sample.direction), float(sample.density));
-        rows[1] = glm::vec4(sample.radiance, 0.0f);
+        glm::vec4* const row = &points.light.rows[std::size_t(2) * i * cells];
+        for (int k = 0; k < cells; ++k) {
+            const LightSample sample = light.sample(k, {u.x, u.y});
+            row[k] = glm::vec4(glm::vec3(sample.direction), float(sample.density));
+            row[cells + k] = glm::vec4(sample.radiance, 0.0f);
+        }
         const glm::dvec3 v = scrambled_sobol(index, seed_of(options.seed, Reflection));
         const double phi = 2.0 * std::numbers::pi * v.x;
-        rows[2] = glm::vec4(glm::dvec4(std::cos(phi), std::sin(phi), v.y, v.z));
+        glm::vec4* const rows = &points.block.point_rows[std::size_t(2) * i];
+        rows[0] = glm::vec4(glm::dvec4(std::cos(phi), std::sin(phi), v.y, v.z));
+        rows[1] = glm::vec4(float(u.z), 0.0f, 0.0f, 0.0f);
     }
-    return block;
+    for (int k = 0; k < cells; ++k) {
+        const LightCell& cell = light.cells()[k];
+        const double share = light.total() > 0.0 ? cell.light / light.total() : 1.0 / cells;
+        const double density = cell.light > 0.0 ? 1.0 / cell.light : 0.0;
+        glm::vec4* const rows = &points.block.cell_rows[std::size_t(2) * k];
+        rows[0] = glm::vec4(glm::dvec4(cell.direction, cell.spread));
+        rows[1] = glm::vec4(glm::dvec4(share, density, std::sqrt(cell.spread), 0.0));
+    }
+    return points;
 }
 
 double seconds_of(std::chrono::steady_clock::time_point since) {
@@ -78,12 +98,14 @@ struct Reference::State {
     double wanted = 0.0;        ///< to what pixels are to be known before they rest
     std::vector<float> counts;  ///< as ReferenceTarget's
     int counted = 0;            ///< samples when they were set
-    int wanted_count = 0;       ///< points of a slice from the next round on; 0: as many as is good
+    int rows = 0;               ///< of the picture that have the next slice already
+    int rows_at_once = 0;       ///< of a step that follows the clock; 0: none did yet
 
     int most_at_once() const;
-    int count_at_once() const { return wanted_count > 0 ? wanted_count : most_at_once(); }
+    int count_at_once() const { return rows_at_once > 0 && round == 0 ? 1 : most_at_once(); }
     glm::vec2 jitter_px() const;
     void begin();
+    void draw(int count);
     void judge();
     void rest(const std::vector<float>& half_widths);
     void end_round();
@@ -104,7 +126,7 @@ glm::vec2 Reference::State::jitter_px() const {
 
 void Reference::State::begin() {
     progress = {};
-    round = judged = counted = 0;
+    round = judged = counted = rows = 0;
     next = {.count = count_at_once()};
     wanted = std::max(options.tolerance, kFirstTolerance);
     counts.assign(2 * std::size_t(target.size.x) * target.size.y, 0.0f);
@@ -156,8 +178,8 @@ void Reference::State::judge() {
 
 void Reference::State::end_round() {
     const int left = longest_of(options) - next.first - next.count;
-    next = {.replicate = 0, .first = next.first + next.count, .count = std::min(count_at_once(), left)};
     ++round;
+    next = {.replicate = 0, .first = next.first + next.count, .count = std::min(count_at_once(), left)};
     const bool last = left <= 0;
     const bool is_due = options.tolerance > 0.0 && round >= 4 && 4 * progress.samples >= 5 * judged;
     if (last || is_due) judge();
@@ -183,10 +205,12 @@ PanoramaTexels Reference::panorama_of(const EnvironmentHandle& environment) {
 
 void Reference::restart(const Scene& scene, std::shared_ptr<const LightSampler> light) {
     State& state = *state_;
+    const auto before = state.light;
     if (light)
         state.light = std::move(light);
     else if (!state.light || state.light_of != scene.environment)
         state.light = std::make_shared<LightSampler>(panorama_of(scene.environment));
+    if (state.light != before) gl::set_reference_light(state.target, *state.light);
     state.light_of = scene.environment;
     state.scene = scene;
     state.begin();
@@ -203,34 +227,51 @@ float Reference::share_done() const {
     return float(std::max(of_points, 1.0 / (missing * missing)));
 }
 
+/// So many more rows of the slice that is next.
+void Reference::State::draw(int count) {
+    if (rows == 0) {
+        const Points points = make_points(*light, next, options);
+        gl::set_reference_points(target, points.block, points.light);
+    }
+    const int end = std::min(rows + count, target.size.y);
+    const Renderer::ReferenceSlice slice{.replicate = next.replicate,
+                                         .points = next.count,
+                                         .weight = float(next.count) * kWeightOfOne,
+                                         .rows = {rows, end},
+                                         .jitter_px = jitter_px()};
+    renderer.draw_reference(scene, target, slice);
+    rows = end;
+    if (rows < target.size.y) return;
+    rows = 0;
+    progress.samples += next.count;
+    if (++next.replicate == kReplicates) end_round();
+}
+
 void Reference::draw() {
     State& state = *state_;
-    if (state.progress.done || !state.light) return;
-    gl::set_reference_points(state.target, make_points(*state.light, state.next, state.options));
-    const Renderer::ReferenceSlice slice{.replicate = state.next.replicate,
-                                         .points = state.next.count,
-                                         .weight = float(state.next.count) * kWeightOfOne,
-                                         .total = state.light->total(),
-                                         .jitter_px = state.jitter_px()};
-    state.renderer.draw_reference(state.scene, state.target, slice);
-    state.progress.samples += state.next.count;
-    if (++state.next.replicate == kReplicates) state.end_round();
+    if (!state.progress.done && state.light) state.draw(state.target.size.y);
 }
 
 void Reference::draw_for(double seconds) {
     State& state = *state_;
-    if (state.wanted_count == 0) state.wanted_count = state.next.count = 1;
+    if (!state.light) return;
+    const int height = state.target.size.y;
+    if (state.rows_at_once == 0) {
+        state.rows_at_once = (height + kMostSteps / 2 - 1) / (kMostSteps / 2);
+        if (state.progress.samples == 0) state.next.count = state.count_at_once();
+    }
     const auto begin = std::chrono::steady_clock::now();
-    for (int slices = 1; !state.progress.done; ++slices) {
-        const int count = state.next.count;
-        draw();
+    for (int steps = 1; !state.progress.done; ++steps) {
+        state.draw(state.rows_at_once);
         gl::wait_for_gpu();
         const double spent = seconds_of(begin);
-        // A slice that fills half the time leaves room for another that takes longer.
-        const double slice = std::max(spent / slices, 1e-6);
-        const double ratio = std::clamp(0.5 * seconds / slice, 0.25, 2.0);
-        state.wanted_count = std::clamp(int(std::lround(count * ratio)), 1, state.most_at_once());
-        if (spent + slice > seconds) return;
+        // A step that fills half the time leaves room for another that takes longer.
+        const double step = std::max(spent / steps, 1e-6);
+        const double ratio = std::clamp(0.5 * seconds / step, 0.25, 2.0);
+        // Each step rasterises the mesh: many small ones would do little else.
+        const int fewest = (height + kMostSteps - 1) / kMostSteps;
+        state.rows_at_once = std::clamp(int(std::lround(state.rows_at_once * ratio)), fewest, height);
+        if (spent + step > seconds) return;
     }
 }
 
@@ -241,7 +282,10 @@ void Reference::finish() {
 void Reference::write(RenderTarget& target) const {
     const State& state = *state_;
     target.plain = state.scene.view.plain_color;
-    gl::write_reference_mean(state.target, state.progress.samples - state.counted, kWeightOfOne, target);
+    const gl::GatheredPoints points{.all = state.progress.samples - state.counted,
+                                    .rows = state.rows,
+                                    .more = state.rows > 0 ? state.next.count : 0};
+    gl::write_reference_mean(state.target, points, kWeightOfOne, target);
     state.renderer.show(state.scene.view, target);
 }
 

@@ -60,8 +60,8 @@ public:
 
     /// One slice; nothing once it is done.
     void draw();
-    /// As many slices as fit into that time, whose size follows how long those before took; at least one.
-    /// Waits for the GPU.
+    /// As many rows of slices as fit into that time, by how long those before took; at least a few. The
+    /// first slices are of one point, so that there is soon a picture. Waits for the GPU.
     void draw_for(double seconds);
     void finish();  ///< until done
 

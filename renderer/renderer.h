@@ -125,7 +125,7 @@ public:
         int replicate = 0;
         int points = 1;
         float weight = 1.0f;        ///< 0…1, what this slice counts in the sum
-        double total = 0.0;         ///< the light sampler's
+        glm::ivec2 rows{0, 1};      ///< of the picture, from the bottom: from, to
         glm::vec2 jitter_px{0.0f};  ///< −½…½
     };
     void draw_reference(const Scene& scene, ReferenceTarget& target, const ReferenceSlice& slice);

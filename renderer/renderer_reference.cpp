@@ -17,7 +17,7 @@ void Renderer::State::draw_reference(const Scene& scene, const GpuEnvironment& e
     move_picture(frame, 2.0f * slice.jitter_px / glm::vec2(target.size));
     const float exposure = frame.camera_position.w;
     set_switches();
-    gl::begin_reference_surface(target, kind_of(features & kMaps));
+    gl::begin_reference_surface(target, kind_of(features & kMaps), slice.rows);
     if (scene.mesh)
         rasterise(scene, frame, features & kMaps);
     else
@@ -29,9 +29,7 @@ void Renderer::State::draw_reference(const Scene& scene, const GpuEnvironment& e
         glBindBufferBase(GL_UNIFORM_BUFFER, gl::kPointSlot, target.points.name());
         const gl::Program& program = reference(features, colored_lights(environment));
         glUseProgram(program.name());
-        const double light = slice.total * double(exposure);
-        glUniform2f(glGetUniformLocation(program.name(), "reference_slice"), float(slice.points),
-                    light > 0.0 ? float(1.0 / light) : 0.0f);
+        glUniform1i(glGetUniformLocation(program.name(), "reference_points"), slice.points);
         gl::draw_all(program.name(), nothing.name(), {0, 0, target.size});
         count_draw(1);
     }

@@ -137,6 +137,8 @@ void bind_interface(GLuint program) {
         {"fragment_places", kFragmentPlacesUnit},
         {"stored_fragments", kFragmentPlacesUnit},
         {"reference_counts", kFragmentPlacesUnit},
+        {"light_points", kLightPointsUnit},
+        {"light_cells", kLightCellsUnit},
         {"fragment_of_pixel", kFragmentOfPixelUnit},
         {"fragments_of_samples", kFragmentsOfSamplesUnit},
     };

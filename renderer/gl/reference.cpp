@@ -108,13 +108,30 @@ void set_reference_counts(ReferenceTarget& target, const std::vector<float>& cou
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, target.size.x, target.size.y, GL_RG, GL_FLOAT, counts.data());
 }
 
-void set_reference_points(ReferenceTarget& target, const blocks::PointBlock& points) {
+void set_reference_light(ReferenceTarget& target, const LightSampler& light) {
+    const KeepTextureBindings keep;
+    const PanoramaTexels& texels = light.texels();
+    target.light_cells = Texture::make();
+    glBindTexture(GL_TEXTURE_2D, target.light_cells.name());
+    no_filter(GL_TEXTURE_2D);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, texels.width, texels.height, 0, GL_RED, GL_UNSIGNED_BYTE,
+                 light.cell_of_texel().data());
+}
+
+void set_reference_points(ReferenceTarget& target, const blocks::PointBlock& points,
+                          const LightPoints& light) {
+    const KeepTextureBindings keep;
     if (!target.points) target.points = Buffer::make();
     glBindBuffer(GL_UNIFORM_BUFFER, target.points.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof points, &points, GL_STREAM_DRAW);
+    if (!target.light_points) target.light_points = Texture::make();
+    glBindTexture(GL_TEXTURE_2D, target.light_points.name());
+    no_filter(GL_TEXTURE_2D);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, light.cells, int(light.rows.size()) / light.cells, 0, GL_RGBA,
+                 GL_FLOAT, light.rows.data());
 }
 
-void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps) {
+void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps, glm::ivec2 rows) {
     if (!target.surface.fits(target.size, 1, maps)) {
         target.surface.make(target.size, 1, maps);
         for (const Framebuffer& framebuffer : target.framebuffers) {
@@ -123,6 +140,8 @@ void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps) {
             require_complete(target.size);
         }
     }
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, rows.x, target.size.x, rows.y - rows.x);
     target.surface.begin();
     bind_texture(kFragmentPlacesUnit, GL_TEXTURE_2D, target.counts);
     glDepthFunc(GL_ALWAYS);
@@ -135,6 +154,8 @@ void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps) {
 void begin_reference_slice(const ReferenceTarget& target, int replicate, float weight) {
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffers[replicate].name());
     target.surface.bind_layers();
+    bind_texture(kLightPointsUnit, GL_TEXTURE_2D, target.light_points);
+    bind_texture(kLightCellsUnit, GL_TEXTURE_2D, target.light_cells);
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
@@ -152,9 +173,11 @@ void end_reference_slice() {
     glBlendFunc(GL_ONE, GL_ZERO);
     glBlendColor(0.0f, 0.0f, 0.0f, 0.0f);
     glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
 }
 
-void write_reference_mean(const ReferenceTarget& target, int points, float weight, const RenderTarget& to) {
+void write_reference_mean(const ReferenceTarget& target, const GatheredPoints& points, float weight,
+                          const RenderTarget& to) {
     const KeepDrawState keep;
     const KeepTextureBindings keep_textures;
     glBindFramebuffer(GL_FRAMEBUFFER, to.radiance_framebuffer.name());
@@ -164,8 +187,10 @@ void write_reference_mean(const ReferenceTarget& target, int points, float weigh
     glUseProgram(target.mean.name());
     bind_texture(kPictureUnit, GL_TEXTURE_2D, target.sum);
     bind_texture(kFragmentPlacesUnit, GL_TEXTURE_2D, target.counts);
-    glUniform3f(glGetUniformLocation(target.mean.name(), "reference_weight"), float(points), weight,
+    glUniform3f(glGetUniformLocation(target.mean.name(), "reference_weight"), float(points.all), weight,
                 largest_radiance(to));
+    glUniform2f(glGetUniformLocation(target.mean.name(), "reference_rows"), float(points.rows),
+                float(points.more));
     glBindVertexArray(target.nothing.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }

@@ -2,67 +2,69 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <span>
 #include <utility>
 
 namespace patina {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-double mean_channel(glm::vec3 radiance) {
-    return (double(radiance.x) + double(radiance.y) + double(radiance.z)) / 3.0;
-}
-
-/// cosθ falls evenly through a row, so that the density is constant over the solid angle.
-glm::dvec3 direction_in(const PanoramaTexels& texels, double x, double y) {
-    const int row = std::min(int(y), texels.height - 1);
-    const double top = std::cos(row * kPi / texels.height);
-    const double bottom = std::cos((row + 1) * kPi / texels.height);
-    const double cosine = std::clamp(top + (y - row) * (bottom - top), -1.0, 1.0);
-    const double sine = std::sqrt((1.0 - cosine) * (1.0 + cosine));
-    const double phi = 2.0 * kPi * x / texels.width;
-    return {-sine * std::sin(phi), cosine, sine * std::cos(phi)};
+/// Where sums of shares, ascending, pass u of the last: which share, and how far through it.
+struct Place {
+    int index = 0;
+    double through = 0.0;  ///< [0, 1)
+};
+template <typename Number>
+Place place_of(std::span<const Number> sums, double u) {
+    const double wanted = u * double(sums.back());
+    const auto passed = std::upper_bound(sums.begin(), sums.end(), Number(wanted));
+    const int index = std::min(int(passed - sums.begin()), int(sums.size()) - 1);
+    const double before = index > 0 ? double(sums[index - 1]) : 0.0;
+    const double share = std::max(double(sums[index]) - before, 1e-300);
+    return {index, std::clamp((wanted - before) / share, 0.0, 1.0 - 1e-12)};
 }
 
 }  // namespace
 
-LightSampler::LightSampler(PanoramaTexels texels) : texels_(std::move(texels)) {
-    const int width = texels_.width, height = texels_.height;
-    rows_.resize(std::size_t(height));
+LightSampler::LightSampler(PanoramaTexels texels)
+    : texels_(std::move(texels)), cells_(divide_light(texels_, kMostCells)) {
+    cell_of_texel_.resize(texels_.radiance.size());
     within_.resize(texels_.radiance.size());
-    std::vector<double> sums(static_cast<std::size_t>(width));
-    for (int y = 0; y < height; ++y) {
-        const glm::vec3* row = &texels_.radiance[std::size_t(y) * width];
-        double sum = 0.0;
-        for (int x = 0; x < width; ++x) sums[x] = sum += mean_channel(row[x]);
-        float* within = &within_[std::size_t(y) * width];
-        for (int x = 0; x < width; ++x)
-            within[x] = sum > 0.0 ? float(sums[x] / sum) : float(x + 1) / float(width);
-        const double ring = std::cos(y * kPi / height) - std::cos((y + 1) * kPi / height);
-        rows_[y] = total_ += sum * ring * 2.0 * kPi / width;
+    rows_.resize(cells_.size());
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+        LightCell& cell = cells_[k];
+        double light = 0.0, area = 0.0;
+        std::vector<double> areas;
+        for (int y = cell.top; y < cell.bottom; ++y) {
+            const double texel = texel_solid_angle(texels_, y);
+            double sum = 0.0;
+            for (int x = cell.left; x < cell.right; ++x) {
+                const std::size_t i = std::size_t(y) * texels_.width + x;
+                within_[i] = float(sum += mean_channel(texels_.radiance[i]));
+                cell_of_texel_[i] = std::uint8_t(k);
+            }
+            rows_[k].push_back(light += sum * texel);
+            areas.push_back(area += texel * (cell.right - cell.left));
+        }
+        cell.light = light;
+        if (!(light > 0.0)) rows_[k] = std::move(areas);
+        total_ += light;
     }
 }
 
-LightSample LightSampler::sample(glm::dvec2 u) const {
-    const int width = texels_.width, height = texels_.height;
-    if (!(total_ > 0.0)) {
-        const double cosine = 1.0 - 2.0 * u.y, phi = 2.0 * kPi * u.x;
-        const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-        return {{-sine * std::sin(phi), cosine, sine * std::cos(phi)}, glm::vec3(0.0f), 1.0 / (4.0 * kPi)};
+LightSample LightSampler::sample(int cell, glm::dvec2 u) const {
+    const LightCell& of = cells_[cell];
+    const Place down = place_of(std::span<const double>(rows_[cell]), u.y);
+    const int y = of.top + down.index;
+    if (!(of.light > 0.0)) {
+        const double x = of.left + u.x * (of.right - of.left);
+        return {texel_direction(texels_, x, y + down.through), glm::vec3(0.0f), 1.0 / rows_[cell].back()};
     }
-    const double light = u.y * total_;
-    const int y =
-        std::min(int(std::upper_bound(rows_.begin(), rows_.end(), light) - rows_.begin()), height - 1);
-    const double above = y > 0 ? rows_[y - 1] : 0.0;
-    const double down = std::clamp((light - above) / std::max(rows_[y] - above, 1e-300), 0.0, 1.0 - 1e-12);
-    const float* within = &within_[std::size_t(y) * width];
-    const int x = std::min(int(std::upper_bound(within, within + width, float(u.x)) - within), width - 1);
-    const double before = x > 0 ? double(within[x - 1]) : 0.0;
-    const double along =
-        std::clamp((u.x - before) / std::max(double(within[x]) - before, 1e-300), 0.0, 1.0 - 1e-12);
-    const glm::vec3 radiance = texels_.radiance[std::size_t(y) * width + x];
-    return {direction_in(texels_, x + along, y + down), radiance, mean_channel(radiance) / total_};
+    const std::size_t first = std::size_t(y) * texels_.width + of.left;
+    const Place along =
+        place_of(std::span<const float>(within_).subspan(first, std::size_t(of.right - of.left)), u.x);
+    const glm::vec3 radiance = texels_.radiance[first + along.index];
+    return {texel_direction(texels_, of.left + along.index + along.through, y + down.through), radiance,
+            mean_channel(radiance) / of.light};
 }
 
 }  // namespace patina

@@ -79,35 +79,6 @@ TEST(ReflectionReference, does_not_depend_on_how_the_sky_is_cut_into_texels) {
     }
 }
 
-TEST(LightSampler, draws_texels_by_their_light) {
-    PanoramaTexels texels{8, 4, std::vector<glm::vec3>(32, glm::vec3(0.0f))};
-    texels.radiance[8 + 3] = glm::vec3(6.0f, 0.0f, 0.0f);
-    texels.radiance[16 + 6] = glm::vec3(0.0f, 2.0f, 0.0f);
-    const LightSampler sampler(texels);
-    int red = 0;
-    double area = 0.0;
-    constexpr int count = 4096;
-    for (int i = 0; i < count; ++i) {
-        const glm::dvec3 u = scrambled_sobol(std::uint32_t(i), 7);
-        const LightSample sample = sampler.sample({u.x, u.y});
-        ASSERT_GT(sample.density, 0.0);
-        ASSERT_NEAR(glm::length(sample.direction), 1.0, 1e-12);
-        const glm::vec2 uv = direction_to_equirect(glm::vec3(sample.direction));
-        const int x = int(uv.x * 8), y = int(uv.y * 4);
-        EXPECT_EQ(sample.radiance, texels.radiance[std::size_t(y) * 8 + x]);
-        red += sample.radiance.x > 0.0f;
-        area += 1.0 / sample.density / count;
-    }
-    EXPECT_NEAR(red / double(count), 0.75, 2e-3);  // both rows are as high
-    EXPECT_NEAR(area, 2.0 * 2.0 * std::numbers::pi / 8.0 * std::sqrt(0.5), 1e-3);
-}
-
-TEST(LightSampler, without_light_looks_everywhere) {
-    const LightSampler sampler({4, 2, std::vector<glm::vec3>(8, glm::vec3(0.0f))});
-    EXPECT_EQ(sampler.total(), 0.0);
-    EXPECT_NEAR(sampler.sample({0.3, 0.6}).density, 0.25 / std::numbers::pi, 1e-12);
-}
-
 TEST(LowDiscrepancy, points_fill_every_elementary_interval_once) {
     for (const std::uint64_t seed : {1ull, 99ull}) {
         for (int first = 0; first < 128; first += 64)
