@@ -168,9 +168,7 @@ int run_compare(const RenderArgs& args, const Registry& registry) {
                 radiance ? PixelType::F32 : PixelType::U8);
     for (std::size_t x = 0; x < args.scene.environments.size(); ++x)
         sheet.set_column_title(int(x), environment_title(registry, args.scene.environments[x]));
-    // A kept surface takes programs of its own: four columns cost more with it than without (`bench skip`).
-    constexpr std::size_t columns_that_pay = 6;
-    const Reuse reuse = args.scene.environments.size() >= columns_that_pay ? Reuse::Standing : Reuse::Within;
+    const Reuse reuse = args.scene.environments.size() > 1 ? Reuse::Standing : Reuse::Within;
     NeededLight needed;  // of the whole sheet, so that each light is baked once
     for (const std::string& preset : args.presets)
         needed = combined(needed, studio.loader.needed_light(preset, args.scene));
