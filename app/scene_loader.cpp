@@ -98,7 +98,8 @@ EnvironmentHandle SceneLoader::environment(const std::string& id, const NeededLi
     count_light(renderer_.work(), order, *ready);
     light.held = options_.skip ? without_texels(*ready->held) : ready->held;
     light.handle = Renderer::begin_upload(ready->light).finish();
-    keep_light(registry_, order, *ready, *ready->light, options_.cache);
+    const std::string why_not = keep_light(registry_, order, *ready, *ready->light, options_.cache);
+    if (!why_not.empty()) options_.note(why_not);
     return light.handle;
 }
 
