@@ -1,8 +1,9 @@
 // `patina bench skip`: what is saved by computing only what a picture needs. Every scenario is run as it is
 // and with skipping off, in turn; here whole commands, whose pictures are compared.
+#include "app/bench_skip.h"
+
 #include "app/bench.h"
 #include "app/bench_process.h"
-#include "app/bench_skip.h"
 #include "app/paths.h"
 #include "app/temporary_folder.h"
 #include "materials/text_io.h"
@@ -149,7 +150,10 @@ Json bench_skip_commands(const BenchContext& context) {
                     other.pixels, other.largest);
         rows.push_back(std::move(row));
     }
-    set_variable("XDG_CACHE_HOME", before);
+    if (shared_cache)
+        set_variable("XDG_CACHE_HOME", before);
+    else
+        remove_variable("XDG_CACHE_HOME");
     return rows;
 }
 

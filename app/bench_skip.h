@@ -1,5 +1,5 @@
-// The parts of `patina bench skip`. Each row is measured as it is ("skip") and with skipping off ("no_skip"), in
-// turn: time, memory, ledger.
+// The parts of `patina bench skip`. Each row is measured as it is ("skip") and with skipping off ("no_skip"),
+// in turn: time, memory, ledger.
 #pragma once
 
 #include "app/bench.h"

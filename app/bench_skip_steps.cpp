@@ -199,9 +199,8 @@ Json bench_maps(BenchStage& stage, const BenchContext& context) {
         const double before_mib = allocated_mib();
         const WorkLedger before = stage.renderer.work();
         Scene scene;
-        cost.ms.push_back(milliseconds([&] {
-            scene = loader.scene(context.preset, {.mesh = mesh, .size_px = glm::ivec2(kSidePx)});
-        }));
+        cost.ms.push_back(milliseconds(
+            [&] { scene = loader.scene(context.preset, {.mesh = mesh, .size_px = glm::ivec2(kSidePx)}); }));
         cost.mib = allocated_mib() - before_mib;
         cost.work = since(stage.renderer.work(), before);
     };

@@ -33,8 +33,8 @@ bool serves(const HeldLight& held, const NeededLight& needed);
 BakeSettings lacking(const HeldLight& held, const NeededLight& needed, const BakeSettings& settings);
 /// What stands in where there is nothing: one texel of the mean as a level and as irradiance.
 BakedEnvironment mean_light(const HeldLight& held);
-/// What is drawn with: exact levels, between and beyond them coarse ones where those are nearly as good; mean,
-/// the mean_light, where there is nothing. Always has a level and an irradiance.
+/// What is drawn with: exact levels, between and beyond them coarse ones where those are nearly as good;
+/// mean, the mean_light, where there is nothing. Always has a level and an irradiance.
 LightView drawn_light(const HeldLight& held, const BakedEnvironment& mean);
 
 struct LightOrder {
@@ -80,8 +80,8 @@ std::optional<ReadyLight> get_light(const Registry& registry, const LightOrder& 
                                     const BakeSettings& settings, const BakeCache& cache,
                                     const BakeControl& control);
 
-/// Keeps what was decoded for the next time, unless the source was changed meanwhile. Empty, or a sentence for
-/// the user that says why it could not be kept, if ready's notes do not say so already. light: ready's.
+/// Keeps what was decoded for the next time, unless the source was changed meanwhile. Empty, or a sentence
+/// for the user that says why it could not be kept, if ready's notes do not say so already. light: ready's.
 std::string keep_light(const Registry& registry, const LightOrder& order, const ReadyLight& ready,
                        const PreparedLight& light, const BakeCache& cache);
 

@@ -105,7 +105,8 @@ void find_environment_picture(const Registry& registry, const Thumbnails::Option
     const auto fingerprint = environment_fingerprint(registry, id);
     if (const auto kept = fingerprint ? load_kept(options.bakes, kept_key(id, *fingerprint)) : std::nullopt) {
         found.picture = small_panorama(kept->panorama, kSidePx);
-        skip(found.work, "decoding an environment for its small picture", "its panorama lay in the disk cache");
+        skip(found.work, "decoding an environment for its small picture",
+             "its panorama lay in the disk cache");
         return;
     }
     found.picture = small_panorama(load_environment(registry, id), kSidePx);

@@ -15,9 +15,8 @@ namespace patina {
 namespace {
 
 float largest_of(const CubeMap& cube) {
-    return cube.texels.empty()
-               ? 0.0f
-               : simd::largest_of(&cube.texels.front().x, 3 * int(cube.texels.size()), 0.0f);
+    return cube.texels.empty() ? 0.0f
+                               : simd::largest_of(&cube.texels.front().x, 3 * int(cube.texels.size()), 0.0f);
 }
 
 LightLevels::Cube to_halves(const CubeMap& cube, int exponent) {
@@ -100,8 +99,7 @@ LightLevels make_light_levels(const LightView& baked, const ParallelFor& paralle
     parallel_for(int(baked.levels.size()), [&](int k) {
         const int size = std::max(base >> (k / result.layers), 1);
         const CubeMap& cube = baked.levels[k]->cube;
-        result.levels[k] =
-            to_halves(cube.size == size ? cube : enlarged(cube, size), result.levels_exponent);
+        result.levels[k] = to_halves(cube.size == size ? cube : enlarged(cube, size), result.levels_exponent);
     });
     result.irradiance_exponent = half_exponent(largest_of(*baked.irradiance));
     result.irradiance = to_halves(*baked.irradiance, result.irradiance_exponent);

@@ -157,8 +157,7 @@ std::optional<CachedBake> cached_bake(const Environment& environment, const Bake
     BakedEnvironment entry = load_baked(cache, key).value_or(BakedEnvironment{});
     if (holds(entry, settings)) {
         control.progress(1.0f);
-        return CachedBake{
-            .baked = selected(std::move(entry), settings), .from_disk = true, .note = {}};
+        return CachedBake{.baked = selected(std::move(entry), settings), .from_disk = true, .note = {}};
     }
     const BakeSettings rest = lacking(entry, settings);
     const std::optional<BakedEnvironment> baked = bake_environment(environment, rest, control);

@@ -49,8 +49,7 @@ hn::Vec<Halves> halves_of(V value) {
     const auto subnormal =
         hn::Sub(hn::BitCast(words, hn::Add(hn::BitCast(d, magnitude), middle)), hn::BitCast(words, middle));
     const auto odd = hn::And(hn::ShiftRight<13>(magnitude), hn::Set(words, 1u));
-    const auto normal =
-        hn::ShiftRight<13>(hn::Add(hn::Add(magnitude, hn::Set(words, 0xc8000fffu)), odd));
+    const auto normal = hn::ShiftRight<13>(hn::Add(hn::Add(magnitude, hn::Set(words, 0xc8000fffu)), odd));
     const auto is_small = hn::Lt(magnitude, hn::Set(words, 0x38800000u));
     const auto half = hn::Or(sign, hn::IfThenElse(is_small, subnormal, normal));
     return hn::DemoteTo(Halves(), hn::BitCast(SignedWords(), half));

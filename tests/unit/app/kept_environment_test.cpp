@@ -1,7 +1,6 @@
 #include "app/kept_environment.h"
 
 #include "app/reconcile_load.h"
-
 #include "app/temporary_folder.h"
 #include "renderer/ibl/cache.h"
 

@@ -255,8 +255,9 @@ TEST(KeptLight, says_once_why_it_could_not_be_kept) {
     const LightOrder mirror{.id = "sky", .needed = NeededLight{}};
     const auto unbaked = shop.get(mirror);
     EXPECT_TRUE(unbaked->notes.empty());
-    EXPECT_NE(keep_light(shop.registry, mirror, *unbaked, *unbaked->light, shop.cache).find("/dev/null/light"),
-              std::string::npos);
+    EXPECT_NE(
+        keep_light(shop.registry, mirror, *unbaked, *unbaked->light, shop.cache).find("/dev/null/light"),
+        std::string::npos);
     const LightOrder rough{.id = "sky", .needed = one_roughness(0.37f)};
     const auto baked = shop.get(rough);
     ASSERT_EQ(baked->notes.size(), 1u);  // of the levels: the same sentence

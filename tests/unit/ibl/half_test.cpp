@@ -1,13 +1,14 @@
 // Light as half floats: as one value alone is rounded, on every instruction set.
 #include "renderer/gl/half.h"
+
 #include "renderer/ibl/half_simd.h"
 #include "renderer/ibl/sh_simd.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <cmath>
 #include <cstring>
+#include <hwy/targets.h>
 #include <random>
 #include <vector>
 
