@@ -152,7 +152,7 @@ Json bench_steps(BenchStage& stage, const BenchContext& context) {
         for (int i = 0; i < context.repetitions(); ++i)
             for (const int which : {i % 2, 1 - i % 2}) {
                 stage.renderer.set_reuse(which == 0);
-                add_step(step, views, stage.renderer, context.quick ? 2 : 3, costs[std::size_t(which)]);
+                add_step(step, views, stage.renderer, context.quick ? 1 : 3, costs[std::size_t(which)]);
             }
         rows.push_back(row_of(step.name, costs));
         print_row(rows.back());
@@ -256,7 +256,7 @@ Visit visit_environment(BenchStage& stage, SceneLoader& loader, const Scene& bef
 SwitchRun run_switch(BenchStage& stage, const BenchContext& context, const std::string& environment) {
     SwitchRun run;
     const EnvironmentHandle before = stage.loader(context.registry).environment("furnace");
-    for (int i = 0; i < 3 * context.repetitions(); ++i) {
+    for (int i = 0; i < context.repetitions() + 2; ++i) {
         run.decode.push_back(milliseconds([&] { load_environment(context.registry, environment); }));
         for (const int which : {i % 2, 1 - i % 2}) {
             const TemporaryFolder cache("patina-skip");

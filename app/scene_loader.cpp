@@ -108,6 +108,11 @@ MeshHandle SceneLoader::mesh(const std::string& id, bool with_tangents) {
 }
 
 SceneLoader::LoadedMesh& SceneLoader::loaded_mesh(const std::string& id, bool with_tangents) {
+    if (const auto more = meshes_.find({id, true});
+        !with_tangents && more != meshes_.end() && more->second.handle) {
+        ++renderer_.work().meshes_from_memory;
+        return more->second;  // tangents that nothing reads change no picture
+    }
     LoadedMesh& loaded = meshes_[{id, with_tangents}];
     if (loaded.handle) return loaded;
     Mesh mesh = load_mesh_part(registry_, id);
