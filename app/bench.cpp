@@ -20,18 +20,6 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
-
-double milliseconds(const std::function<void()>& action) {
-    const auto start = std::chrono::steady_clock::now();
-    action();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
 struct FrameCase {
     std::string name;
     Scene scene;
@@ -73,6 +61,18 @@ std::vector<FrameCase> frame_cases(SceneLoader& loader, const std::string& envir
 }
 
 }  // namespace
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+double milliseconds(const std::function<void()>& action) {
+    const auto start = std::chrono::steady_clock::now();
+    action();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
 
 std::vector<double> interleaved_medians_ms(const std::vector<std::function<void()>>& actions,
                                            int repetitions) {

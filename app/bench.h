@@ -34,6 +34,9 @@ struct Benchmark {
     nlohmann::ordered_json (*run)(const BenchContext& context);
 };
 
+double milliseconds(const std::function<void()>& action);
+/// The upper one of two middle ones. Precondition: not empty.
+double median(std::vector<double> values);
 /// Median milliseconds of each action, run in turn (a b c … c b a, …) repetitions times after one warm-up.
 std::vector<double> interleaved_medians_ms(const std::vector<std::function<void()>>& actions,
                                            int repetitions);

@@ -204,39 +204,45 @@ std::string changed_work(const Json& row) {
     return text;
 }
 
+std::string step_row(const Json& row) {
+    return "| " + row.at("name").get<std::string>() + " | " + both(row, "ms", 1) + " | " +
+           number(row.at("ratio").get<double>(), 2) + " | " + both(row, "mib", 1) + " | " +
+           changed_work(row) + " |\n";
+}
+
+std::string switch_table(const Json& light) {
+    std::string text = "\nAnother environment, until its picture is there; decoding it alone takes " +
+                       number(light.at("decode_ms").get<double>(), 1) +
+                       " ms.\n\n| from | light there, ms | drawing alone, ms | seen, ms | seen less drawing, "
+                       "ms | allocated, MiB | work |\n|---|---|---|---|---|---|---|\n";
+    for (const Json& row : light.at("cases")) {
+        text += "| " + row.at("name").get<std::string>();
+        for (const char* key : {"light_ready_ms", "drawing_ms", "seen_ms", "seen_less_drawing_ms", "mib"})
+            text += " | " + both(row, key, 1);
+        text += " | " + changed_work(row) + " |\n";
+    }
+    return text;
+}
+
 std::string skip_tables(const Json& result) {
     std::string text =
-        "Whole commands, 512²; in brackets with `--no-skip`.\n\n"
-        "| picture | CPU ms | wall ms | peak MiB | largest 8-bit step | work |\n|---|---|---|---|---|---|\n";
+        "Whole commands; in brackets with `--no-skip`.\n\n"
+        "| picture | px | CPU ms | wall ms | peak MiB | largest 8-bit step | work "
+        "|\n|---|---|---|---|---|---|---|\n";
     for (const Json& row : result.at("commands"))
-        text += "| " + row.at("name").get<std::string>() + " | " + both(row, "cpu_ms", 0) + " | " +
-                both(row, "wall_ms", 0) + " | " + both(row, "peak_mib", 0) + " | " +
-                row.at("largest_code_step").dump() + " | " + changed_work(row) + " |\n";
+        text += "| " + row.at("name").get<std::string>() + " | " + row.at("side_px").dump() + " | " +
+                both(row, "cpu_ms", 0) + " | " + both(row, "wall_ms", 0) + " | " + both(row, "peak_mib", 0) +
+                " | " + row.at("largest_code_step").dump() + " | " + changed_work(row) + " |\n";
     text +=
-        "\nOne step, from the change to the picture.\n\n| step | ms | without skipping | ratio "
-        "|\n|---|---|---|---|\n";
-    for (const Json& row : result.at("steps"))
-        text += "| " + row.at("name").get<std::string>() + " | " +
-                number(row.at("skip_ms").get<double>(), 1) + " | " +
-                number(row.at("no_skip_ms").get<double>(), 1) + " | " +
-                number(row.at("ratio").get<double>(), 2) + " |\n";
+        "\nOne step, from the change to the picture; in brackets without skipping.\n\n| step | ms | ratio | "
+        "allocated, MiB | work |\n|---|---|---|---|---|\n";
+    for (const Json& row : result.at("steps")) text += step_row(row);
+    if (result.contains("maps")) text += step_row(result.at("maps"));
     text += "\n| views side by side | ratio |\n|---|---|\n";
     for (const Json& row : result.at("shared_views"))
         text += "| " + row.at("name").get<std::string>() + " | " + number(row.at("ratio").get<double>(), 2) +
                 " |\n";
-    const Json& light = result.at("environment_switch");
-    text += "\nAnother environment, until its picture is there; decoding it alone takes " +
-            number(light.at("decode_ms").get<double>(), 1) +
-            " ms.\n\n| from | light there, ms | drawing alone, ms | seen, ms | seen less drawing, ms | seen "
-            "without skipping, ms |\n|---|---|---|---|---|---|\n";
-    for (const Json& row : light.at("cases"))
-        text += "| " + row.at("name").get<std::string>() + " | " +
-                number(row.at("light_ready_ms").get<double>(), 1) + " | " +
-                number(row.at("drawing_ms").get<double>(), 1) + " | " +
-                number(row.at("skip_ms").get<double>(), 1) + " | " +
-                number(row.at("skip_less_drawing_ms").get<double>(), 1) + " | " +
-                number(row.at("no_skip_ms").get<double>(), 1) + " |\n";
-    return text;
+    return text + switch_table(result.at("environment_switch"));
 }
 
 }  // namespace

@@ -18,6 +18,14 @@ inline void set_variable(const char* name, const std::string& value) {
 #endif
 }
 
+inline void remove_variable(const char* name) {
+#ifdef _WIN32
+    _putenv_s(name, "");
+#else
+    unsetenv(name);
+#endif
+}
+
 /// As one word of a command line.
 inline std::string quoted(const std::filesystem::path& path) { return "\"" + path_to_utf8(path) + "\""; }
 

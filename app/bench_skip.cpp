@@ -1,11 +1,10 @@
 // `patina bench skip`: what is saved by computing only what a picture needs. Every scenario is run as it is
-// and with skipping off, in turn, and the pictures are compared.
+// and with skipping off, in turn; here whole commands, whose pictures are compared.
+#include "app/bench_skip.h"
+
 #include "app/bench.h"
 #include "app/bench_process.h"
-#include "app/bench_stage.h"
-#include "app/jobs.h"
 #include "app/paths.h"
-#include "app/stats.h"
 #include "app/temporary_folder.h"
 #include "materials/text_io.h"
 #include "renderer/core/file_io.h"
@@ -16,10 +15,7 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <limits>
 #include <stdexcept>
 
 namespace patina {
@@ -31,36 +27,25 @@ namespace {
 
 constexpr int kSidePx = 512;
 
-double milliseconds(const std::function<void()>& action) {
-    const auto begin = std::chrono::steady_clock::now();
-    action();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
-
-// --- whole commands, each a process: time, memory, ledger ---
-
 struct CommandCase {
     std::string name;
     std::string arguments;
+    int side_px = kSidePx;
 };
 
 std::vector<CommandCase> command_cases(const BenchContext& context) {
     const std::string render = "render ";
     const std::string compare = "compare ";
     const std::string views = " --env ";
+    // Alone, a picture's programs take longer than its pixels anyway.
+    const int alone_px = context.quick ? kSidePx / 2 : kSidePx;
     std::vector<CommandCase> cases{
-        {"uniform plastic", render + "plastic-glossy-red --env sky"},
-        {"full metal", render + "gold --env sky"},
-        {"textured, no normal map", render + "terrazzo --env sky"},
-        {"everything on", render + "cooling-lava --env sky --mesh shaderball"},
-        {"1 view", compare + "worn-paint" + views + "studio"},
-        {"2 views", compare + "worn-paint" + views + "studio sky"},
+        {"uniform plastic", render + "plastic-glossy-red --env sky", alone_px},
+        {"full metal", render + "gold --env sky", alone_px},
+        {"textured, no normal map", render + "terrazzo --env sky", alone_px},
+        {"everything on", render + "cooling-lava --env sky --mesh shaderball", alone_px},
+        {"1 view", compare + "worn-paint" + views + "studio", alone_px},
+        {"2 views", compare + "worn-paint" + views + "studio sky", alone_px},
         {"4 views", compare + "worn-paint" + views + "studio sky sunset night"},
         {"9 views", compare + "worn-paint gold porcelain" + views + "studio sky sunset"},
         {"14 views", compare + "worn-paint gold" + views + "studio sky sunset overcast night furnace test"}};
@@ -83,7 +68,7 @@ CommandRun run_once(const CommandCase& each, bool skip, const fs::path& folder) 
     const fs::path stats = folder / "stats.json";
     const fs::path picture = folder / (skip ? "skip.png" : "all.png");
     const std::string command = quoted(program_folder() / "patina") + " " + each.arguments + " --size " +
-                                std::to_string(kSidePx) + "x" + std::to_string(kSidePx) + " -o " +
+                                std::to_string(each.side_px) + "x" + std::to_string(each.side_px) + " -o " +
                                 quoted(picture) + " --stats " + quoted(stats) + (skip ? "" : " --no-skip") +
                                 " 2> " + quoted(folder / "said.txt");
     CommandRun run;
@@ -133,7 +118,10 @@ Json summary(const std::vector<CommandRun>& runs) {
             {"work", Json::parse(runs.front().work)}};
 }
 
-Json bench_commands(const BenchContext& context, int repetitions) {
+}  // namespace
+
+Json bench_skip_commands(const BenchContext& context) {
+    const int repetitions = context.quick ? 1 : 3;
     const TemporaryFolder folder("patina-skip");
     const char* shared_cache = std::getenv("XDG_CACHE_HOME");  // where the driver keeps compiled shaders, too
     const std::string before = shared_cache ? shared_cache : "";
@@ -149,6 +137,7 @@ Json bench_commands(const BenchContext& context, int repetitions) {
                 runs[std::size_t(which)].push_back(run_once(each, which == 0, folder.path()));
         const PictureDifference other = difference(folder.path() / "skip.png", folder.path() / "all.png");
         Json row{{"name", each.name},
+                 {"side_px", each.side_px},
                  {"skip", summary(runs[0])},
                  {"no_skip", summary(runs[1])},
                  {"largest_code_step", other.largest},
@@ -161,245 +150,16 @@ Json bench_commands(const BenchContext& context, int repetitions) {
                     other.pixels, other.largest);
         rows.push_back(std::move(row));
     }
-    set_variable("XDG_CACHE_HOME", before);
+    if (shared_cache)
+        set_variable("XDG_CACHE_HOME", before);
+    else
+        remove_variable("XDG_CACHE_HOME");
     return rows;
 }
-
-// --- what an artist does, in one process: time of a step ---
-
-/// Draws all, and waits until they are drawn.
-void draw_all_views(Renderer& renderer, const std::vector<Scene>& scenes,
-                    const std::vector<TargetHandle>& targets) {
-    for (std::size_t i = 0; i < scenes.size(); ++i)
-        renderer.draw(scenes[i], *targets[i], scenes.size() > 1 ? Reuse::Expected : Reuse::IfRepeated);
-    renderer.read_display(*targets.back());
-}
-
-struct Step {
-    std::string name;
-    std::vector<std::string> presets, lights;
-    int side_px = kSidePx;
-    void (*change)(Scene&) = nullptr;
-};
-
-void turn_light(Scene& scene) { scene.view.env_rotation_deg += 3.0f; }
-void move_slider(Scene& scene) {
-    float& value = scene.material.roughness.value;
-    value = value > 0.9f ? 0.4f : value + 0.01f;
-}
-void orbit(Scene& scene) { scene.camera.yaw_deg += 2.0f; }
-
-std::vector<Step> steps() {
-    const std::vector<std::string> one{"studio"}, three{"studio", "sky", "sunset"},
-        four{"studio", "sky", "sunset", "night"};
-    const int third = 300;
-    return {
-        {"slider drag, plastic", {"plastic-glossy-red"}, one, kSidePx, move_slider},
-        {"slider drag, worn paint", {"worn-paint"}, one, kSidePx, move_slider},
-        {"light rotation, plastic", {"plastic-glossy-red"}, one, kSidePx, turn_light},
-        {"light rotation, worn paint", {"worn-paint"}, one, kSidePx, turn_light},
-        {"orbit, worn paint", {"worn-paint"}, one, kSidePx, orbit},
-        {"light rotation, 4 views", {"worn-paint"}, four, kSidePx, turn_light},
-        {"orbit, 4 views", {"worn-paint"}, four, kSidePx, orbit},
-        {"light rotation, 1 view of 900", {"gold"}, one, 3 * third, turn_light},
-        {"light rotation, 1 view of 300", {"gold"}, one, third, turn_light},
-        {"light rotation, 9 views of 300", {"gold", "worn-paint", "porcelain"}, three, third, turn_light}};
-}
-
-struct StepViews {
-    std::vector<Scene> scenes;
-    std::vector<TargetHandle> targets;
-};
-
-StepViews views_of(const Step& step, SceneLoader& loader, Renderer& renderer) {
-    StepViews views;
-    for (const std::string& preset : step.presets)
-        for (const std::string& light : step.lights) {
-            views.scenes.push_back(loader.scene(preset, SceneOptions{.size_px = glm::ivec2(step.side_px)}));
-            views.scenes.back().environment = loader.environment(light);
-            views.targets.push_back(renderer.make_target(glm::ivec2(step.side_px)));
-        }
-    return views;
-}
-
-/// Of three, after one that compiles and may rasterise.
-double fastest_ms(const Step& step, StepViews& views, Renderer& renderer) {
-    double fastest = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 4; ++k) {
-        for (Scene& scene : views.scenes) step.change(scene);
-        const double ms = milliseconds([&] { draw_all_views(renderer, views.scenes, views.targets); });
-        if (k > 0) fastest = std::min(fastest, ms);
-    }
-    return fastest;
-}
-
-Json bench_steps(BenchStage& stage, const BenchContext& context) {
-    SceneLoader loader = stage.loader(context.registry);
-    Json rows = Json::array();
-    std::printf("\n%-34s %9s %9s %6s\n", "one step", "ms", "no skip", "ratio");
-    for (const Step& step : steps()) {
-        StepViews views = views_of(step, loader, stage.renderer);
-        std::array<std::vector<double>, 2> ms;
-        for (int i = 0; i < context.repetitions(); ++i)
-            for (const int which : {i % 2, 1 - i % 2}) {
-                stage.renderer.set_reuse(which == 0);
-                ms[std::size_t(which)].push_back(fastest_ms(step, views, stage.renderer));
-            }
-        const double skip = median(ms[0]), all = median(ms[1]);
-        std::printf("%-34s %9.1f %9.1f %6.2f\n", step.name.c_str(), skip, all, skip / all);
-        rows.push_back({{"name", step.name}, {"skip_ms", skip}, {"no_skip_ms", all}, {"ratio", skip / all}});
-    }
-    stage.renderer.set_reuse(true);
-    return rows;
-}
-
-/// What sharing costs and saves, from the steps above.
-Json shared_views(const Json& steps) {
-    const auto ms = [&](const char* name, const char* key) {
-        for (const Json& row : steps)
-            if (row.at("name") == name) return row.at(key).get<double>();
-        return 0.0;
-    };
-    const double orbit = ms("orbit, 4 views", "skip_ms");
-    const double nine = ms("light rotation, 9 views of 300", "skip_ms");
-    const std::array<std::pair<const char*, double>, 4> rows{
-        {{"4 views rasterised once and shaded / shaded alone",
-          orbit / ms("light rotation, 4 views", "skip_ms")},
-         {"4 views rasterised once and shaded / 4 independent", orbit / ms("orbit, 4 views", "no_skip_ms")},
-         {"light of 9 views turned / of one of them", nine / ms("light rotation, 1 view of 300", "skip_ms")},
-         {"light of 9 views turned / of one as large as all",
-          nine / ms("light rotation, 1 view of 900", "skip_ms")}}};
-    Json json = Json::array();
-    std::printf("\n");
-    for (const auto& [name, ratio] : rows) {
-        std::printf("%-56s %6.2f\n", name, ratio);
-        json.push_back({{"name", name}, {"ratio", ratio}});
-    }
-    return json;
-}
-
-// --- a preset's maps, from their files to the GPU ---
-
-Json bench_maps(BenchStage& stage, const BenchContext& context) {
-    std::array<std::vector<double>, 2> ms;
-    const auto load = [&](bool skip) {
-        SceneLoader loader(stage.renderer, context.registry, {.skip = skip});
-        loader.mesh(context.mesh.empty() ? "sphere" : context.mesh, true);
-        const SceneOptions options{.mesh = context.mesh.empty() ? "sphere" : context.mesh,
-                                   .size_px = glm::ivec2(kSidePx)};
-        return milliseconds([&] { loader.scene(context.preset, options); });
-    };
-    for (int i = 0; i < context.repetitions(); ++i)
-        for (const int which : {i % 2, 1 - i % 2}) ms[std::size_t(which)].push_back(load(which == 0));
-    const double skip = median(ms[0]), all = median(ms[1]);
-    std::printf("\n%-34s %9.1f %9.1f %6.2f\n", "its maps, from file to GPU", skip, all, skip / all);
-    return {{"skip_ms", skip}, {"no_skip_ms", all}, {"ratio", skip / all}};
-}
-
-// --- another environment, until the picture under it is there ---
-
-/// Milliseconds of one visit to an environment, from a picture under another one.
-struct Visit {
-    double light = 0.0;  ///< until its light is on the GPU
-    double seen = 0.0;   ///< until the picture under it is drawn and read back
-    double drawn = 0.0;  ///< of that, drawing: the same change once more, with both lights there
-};
-
-/// Of many visits.
-double median_of(const std::vector<Visit>& visits, double (*value)(const Visit&)) {
-    std::vector<double> values(visits.size());
-    std::ranges::transform(visits, values.begin(), value);
-    return median(std::move(values));
-}
-
-struct SwitchRun {
-    static constexpr std::array kNames{"cold", "disk cache", "memory"};
-    std::array<std::array<std::vector<Visit>, kNames.size()>, 2> visits;  ///< with skipping and without
-    std::vector<double> decode;
-};
-
-Visit visit_environment(BenchStage& stage, SceneLoader& loader, const Scene& before,
-                        const std::string& environment) {
-    const TargetHandle target = stage.renderer.make_target(glm::ivec2(kSidePx));
-    const auto draw = [&](const Scene& scene) {
-        stage.renderer.draw(scene, *target, Reuse::IfRepeated);
-        stage.renderer.read_display(*target);
-    };
-    Scene scene = before;
-    Visit visit;
-    draw(before);
-    visit.seen = milliseconds([&] {
-        visit.light = milliseconds(
-            [&] { scene.environment = loader.environment(environment, loader.needed_light(scene)); });
-        draw(scene);
-    });
-    draw(before);
-    visit.drawn = milliseconds([&] { draw(scene); });
-    return visit;
-}
-
-SwitchRun run_switch(BenchStage& stage, const BenchContext& context, const std::string& environment) {
-    SwitchRun run;
-    const EnvironmentHandle before = stage.loader(context.registry).environment("furnace");
-    for (int i = 0; i < context.repetitions(); ++i) {
-        run.decode.push_back(milliseconds([&] { load_environment(context.registry, environment); }));
-        for (const int which : {i % 2, 1 - i % 2}) {
-            const TemporaryFolder cache("patina-skip");
-            stage.renderer.set_reuse(which == 0);
-            auto& visits = run.visits[std::size_t(which)];
-            for (const std::size_t from : {0u, 1u}) {  // nowhere, disk
-                SceneLoader loader(stage.renderer, context.registry,
-                                   {.parallel_for = stage.jobs.parallel_for(),
-                                    .cache = {.folder = cache.path()},
-                                    .skip = which == 0});
-                Scene scene = loader.scene("plastic-glossy-red", SceneOptions{});
-                scene.environment = before;
-                visits[from].push_back(visit_environment(stage, loader, scene, environment));
-                if (from == 1) visits[2].push_back(visit_environment(stage, loader, scene, environment));
-            }
-        }
-    }
-    stage.renderer.set_reuse(true);
-    return run;
-}
-
-Json bench_switch(BenchStage& stage, const BenchContext& context) {
-    const std::string& environment = context.environments.back();
-    const SwitchRun run = run_switch(stage, context, environment);
-    const double decode = median(run.decode);
-    Json json{{"environment", environment}, {"decode_ms", decode}, {"cases", Json::array()}};
-    std::printf("\n%-34s %9s %9s %9s %9s %9s   (decoding alone %.1f ms)\n",
-                ("environment " + path_to_utf8(utf8_to_path(environment).filename())).c_str(), "light ms",
-                "drawing", "seen ms", "less draw", "no skip", decode);
-    for (std::size_t from = 0; from < SwitchRun::kNames.size(); ++from) {
-        const auto& own = run.visits[0][from];
-        const double light = median_of(own, [](const Visit& each) { return each.light; });
-        const double drawn = median_of(own, [](const Visit& each) { return each.drawn; });
-        const double seen = median_of(own, [](const Visit& each) { return each.seen; });
-        const double less = median_of(own, [](const Visit& each) { return each.seen - each.drawn; });
-        const double all = median_of(run.visits[1][from], [](const Visit& each) { return each.seen; });
-        std::printf("%-34s %9.1f %9.1f %9.1f %9.1f %9.1f\n", SwitchRun::kNames[from], light, drawn, seen,
-                    less, all);
-        json["cases"].push_back({{"name", SwitchRun::kNames[from]},
-                                 {"light_ready_ms", light},
-                                 {"drawing_ms", drawn},
-                                 {"skip_ms", seen},
-                                 {"skip_less_drawing_ms", less},
-                                 {"no_skip_ms", all}});
-    }
-    return json;
-}
-
-}  // namespace
 
 Json bench_skip(const BenchContext& context) {
-    Json json{{"renderer", ""}, {"commands", bench_commands(context, context.quick ? 1 : 3)}};
-    BenchStage stage;
-    json["renderer"] = stage.context.description();
-    json["steps"] = bench_steps(stage, context);
-    json["shared_views"] = shared_views(json["steps"]);
-    if (!context.preset.empty()) json["maps"] = bench_maps(stage, context);
-    json["environment_switch"] = bench_switch(stage, context);
+    Json json{{"renderer", ""}, {"commands", bench_skip_commands(context)}};
+    bench_skip_steps(context, json);
     return json;
 }
 

@@ -20,8 +20,6 @@ std::vector<float> roughness_of(const std::vector<PrefilteredLevel>& levels) {
     return roughness;
 }
 
-CubeMap one_texel(glm::vec3 radiance) { return {1, std::vector<glm::vec3>(6, radiance)}; }
-
 std::size_t amount(const HeldLight& held) {
     return 2 * held.exact.levels.size() + (held.exact.irradiance.size > 0 ? 1 : 0);
 }
@@ -94,9 +92,9 @@ bool take_what_is_there(LightTask& task) {
     const std::string key =
         bake_key(held.source.content_hash, {held.source.width, held.source.height}, task.settings);
     std::optional<BakedEnvironment> entry = load_baked(task.cache, key);
-    if (entry && needed) entry = selected(*entry, wanted);
-    if (!entry) return false;
-    held.exact = merged(held.exact, *entry);
+    if (!entry || (needed && !holds(*entry, wanted))) return false;
+    held.exact =
+        merged(std::move(held.exact), needed ? selected(std::move(*entry), wanted) : std::move(*entry));
     task.ready.from_disk = true;
     return true;
 }
@@ -121,7 +119,7 @@ bool bake_what_is_missing(LightTask& task) {
     ready.from_disk = bake->from_disk;
     ready.levels_baked = bake->levels_baked;
     ready.irradiance_baked = bake->irradiance_baked;
-    held.exact = merged(held.exact, bake->baked);
+    held.exact = merged(std::move(held.exact), std::move(bake->baked));
     return true;
 }
 
@@ -135,7 +133,8 @@ std::shared_ptr<const PreparedLight> prepare(LightTask& task) {
         if (!task.environment) decode(task);
         light->panorama = make_panorama_levels(*task.environment);
     }
-    light->levels = make_light_levels(drawn_light(task.held));
+    const BakedEnvironment mean = mean_light(task.held);
+    light->levels = make_light_levels(drawn_light(task.held, mean), task.control.parallel_for);
     if (!task.held.is_whole) light->levels.sharpest = kSharpestLevel;
     return light;
 }
@@ -155,8 +154,13 @@ BakeSettings lacking(const HeldLight& held, const NeededLight& needed, const Bak
     return rest;
 }
 
-BakedEnvironment drawn_light(const HeldLight& held) {
-    BakedEnvironment drawn = held.exact;
+BakedEnvironment mean_light(const HeldLight& held) {
+    const CubeMap mean{1, std::vector<glm::vec3>(6, held.source.mean)};
+    return {.levels = {{kSharpestLevel, mean}}, .irradiance = mean};
+}
+
+LightView drawn_light(const HeldLight& held, const BakedEnvironment& mean) {
+    LightView drawn = view_of(held.exact);
     const bool is_first = drawn.levels.empty();
     // Coarse levels hold all light: beside lights that were taken out it would count twice.
     if (is_first || drawn.lights.empty()) {
@@ -164,14 +168,13 @@ BakedEnvironment drawn_light(const HeldLight& held) {
             const auto same = [&](const PrefilteredLevel& each) { return each.roughness == level.roughness; };
             if ((is_first || level.roughness >= kCoarseIsFine) &&
                 std::none_of(held.exact.levels.begin(), held.exact.levels.end(), same))
-                drawn.levels.push_back(level);
+                drawn.levels.push_back(&level);
         }
-        std::stable_sort(drawn.levels.begin(), drawn.levels.end(),
-                         [](const auto& a, const auto& b) { return a.roughness < b.roughness; });
+        std::ranges::stable_sort(drawn.levels, {}, &PrefilteredLevel::roughness);
     }
-    if (drawn.levels.empty()) drawn.levels = {{kSharpestLevel, one_texel(held.source.mean)}};
-    if (drawn.irradiance.size == 0) drawn.irradiance = held.coarse.irradiance;
-    if (drawn.irradiance.size == 0) drawn.irradiance = one_texel(held.source.mean);
+    if (drawn.levels.empty()) drawn.levels.push_back(&mean.levels.front());
+    if (drawn.irradiance->size == 0) drawn.irradiance = &held.coarse.irradiance;
+    if (drawn.irradiance->size == 0) drawn.irradiance = &mean.irradiance;
     return drawn;
 }
 
@@ -216,7 +219,8 @@ std::string keep_light(const Registry& registry, const LightOrder& order, const 
     const auto now = environment_fingerprint(registry, order.id);
     if (!now || kept_key(order.id, *now) != ready.keep_as)
         return order.id + " was changed while it was read.";
-    return save_kept(cache, ready.keep_as, ready.held->source, light.panorama);
+    std::string why_not = save_kept(cache, ready.keep_as, ready.held->source, light.panorama);
+    return std::ranges::find(ready.notes, why_not) == ready.notes.end() ? why_not : std::string();
 }
 
 std::uint64_t bytes_of(const HeldLight& held) {

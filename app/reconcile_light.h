@@ -31,9 +31,11 @@ struct HeldLight {
 bool serves(const HeldLight& held, const NeededLight& needed);
 /// What of the settings is not there yet.
 BakeSettings lacking(const HeldLight& held, const NeededLight& needed, const BakeSettings& settings);
-/// What is drawn with: exact levels, between and beyond them coarse ones where those are nearly as good; one
-/// texel of the mean where there is nothing. Always has a level and an irradiance.
-BakedEnvironment drawn_light(const HeldLight& held);
+/// What stands in where there is nothing: one texel of the mean as a level and as irradiance.
+BakedEnvironment mean_light(const HeldLight& held);
+/// What is drawn with: exact levels, between and beyond them coarse ones where those are nearly as good;
+/// mean, the mean_light, where there is nothing. Always has a level and an irradiance.
+LightView drawn_light(const HeldLight& held, const BakedEnvironment& mean);
 
 struct LightOrder {
     std::string id;
@@ -79,7 +81,7 @@ std::optional<ReadyLight> get_light(const Registry& registry, const LightOrder& 
                                     const BakeControl& control);
 
 /// Keeps what was decoded for the next time, unless the source was changed meanwhile. Empty, or a sentence
-/// that says why it could not be kept. light: ready's.
+/// for the user that says why it could not be kept, if ready's notes do not say so already. light: ready's.
 std::string keep_light(const Registry& registry, const LightOrder& order, const ReadyLight& ready,
                        const PreparedLight& light, const BakeCache& cache);
 

@@ -4,6 +4,7 @@
 #include "materials/material_io.h"
 #include "materials/params.h"
 #include "materials/text_io.h"
+#include "renderer/gl/half.h"
 #include "renderer/map_detail.h"
 
 #include <algorithm>
@@ -147,7 +148,11 @@ Image small_picture(const Image& image, int max_side, bool linear) {
     return small.take();
 }
 
-Image small_panorama(const Environment& environment, int width) {
+namespace {
+
+/// radiance: of the texel at x, y.
+template <class Radiance>
+Image small_panorama_of(glm::ivec2 size, int width, const Radiance& radiance) {
     const int height = std::max(1, width / 2);
     Image small = make_image(width, height, 3, PixelType::U8);
     const auto range = [](int i, int n, int source) {
@@ -156,16 +161,34 @@ Image small_panorama(const Environment& environment, int width) {
     };
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const auto [x0, x1] = range(x, width, environment.width);
-            const auto [y0, y1] = range(y, height, environment.height);
+            const auto [x0, x1] = range(x, width, size.x);
+            const auto [y0, y1] = range(y, height, size.y);
             glm::vec3 sum(0.0f);
             for (int j = y0; j < y1; ++j)
-                for (int i = x0; i < x1; ++i)
-                    sum += environment.radiance[std::size_t(j) * environment.width + i];
+                for (int i = x0; i < x1; ++i) sum += radiance(i, j);
             sum /= float((x1 - x0) * (y1 - y0));
             for (int c = 0; c < 3; ++c) set_texel(small, x, y, c, display_value(sum[c]));
         }
     return small;
+}
+
+}  // namespace
+
+Image small_panorama(const Environment& environment, int width) {
+    return small_panorama_of({environment.width, environment.height}, width, [&](int x, int y) {
+        return environment.radiance[std::size_t(y) * environment.width + x];
+    });
+}
+
+Image small_panorama(const PanoramaLevels& panorama, int width) {
+    const float scale = std::ldexp(1.0f, panorama.exponent);
+    const PanoramaLevels::Level& level = panorama.levels.front();
+    return small_panorama_of({level.width, level.height}, width, [&](int x, int y) {
+        const std::uint16_t* rgba = &level.rgba[4 * (std::size_t(y) * level.width + x)];
+        const glm::vec4 value(gl::from_half(rgba[0]), gl::from_half(rgba[1]), gl::from_half(rgba[2]),
+                              gl::from_half(rgba[3]));
+        return scale * (glm::vec3(value) + value.w);
+    });
 }
 
 std::string short_name(const std::string& id) {

@@ -67,8 +67,9 @@ private:
     std::vector<float> sums_;  ///< of the row of small_ that samples are added to
     int sample_ = 0;           ///< next row of samples
 };
-/// A panorama, tone-mapped, width × width/2.
+/// A panorama, tone-mapped, width × width/2; its lights that are kept apart are white here.
 Image small_panorama(const Environment& environment, int width);
+Image small_panorama(const PanoramaLevels& panorama, int width);
 
 /// The last part of a path or id, for labels.
 std::string short_name(const std::string& id);

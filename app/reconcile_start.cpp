@@ -186,9 +186,10 @@ void Reconciler::State::keep(const LightOrder& order, const ReadyLight& ready) c
     if (ready.keep_as.empty()) return;
     const auto box = std::make_shared<ReadyLight>(ready);
     jobs.start("", [this, order, box](JobContext&) -> Jobs::Done {
-        keep_light(registry, order, *box, *box->light, options.bakes);
+        const std::string why_not = keep_light(registry, order, *box, *box->light, options.bakes);
         box->light.reset();  // here, for the same reason as in let_go
-        return {};
+        if (why_not.empty()) return {};
+        return [this, why_not] { options.log(ui::Severity::Info, why_not); };
     });
 }
 

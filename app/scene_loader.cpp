@@ -98,7 +98,8 @@ EnvironmentHandle SceneLoader::environment(const std::string& id, const NeededLi
     count_light(renderer_.work(), order, *ready);
     light.held = options_.skip ? without_texels(*ready->held) : ready->held;
     light.handle = Renderer::begin_upload(ready->light).finish();
-    keep_light(registry_, order, *ready, *ready->light, options_.cache);
+    const std::string why_not = keep_light(registry_, order, *ready, *ready->light, options_.cache);
+    if (!why_not.empty()) options_.note(why_not);
     return light.handle;
 }
 
@@ -107,6 +108,11 @@ MeshHandle SceneLoader::mesh(const std::string& id, bool with_tangents) {
 }
 
 SceneLoader::LoadedMesh& SceneLoader::loaded_mesh(const std::string& id, bool with_tangents) {
+    if (const auto more = meshes_.find({id, true});
+        !with_tangents && more != meshes_.end() && more->second.handle) {
+        ++renderer_.work().meshes_from_memory;
+        return more->second;  // tangents that nothing reads change no picture
+    }
     LoadedMesh& loaded = meshes_[{id, with_tangents}];
     if (loaded.handle) return loaded;
     Mesh mesh = load_mesh_part(registry_, id);

@@ -96,10 +96,19 @@ void find_preset_picture(const Registry& registry, const fs::path& folder, const
     }
 }
 
-void find_environment_picture(const Registry& registry, const fs::path& folder, const std::string& id,
-                              Found& found) {
-    found.cache_file = cache_file(folder, "environment\n" + id + "\n" + describe(stamp_of(utf8_to_path(id))));
+/// Of what was seen before the panorama lies ready.
+void find_environment_picture(const Registry& registry, const Thumbnails::Options& options,
+                              const std::string& id, Found& found) {
+    found.cache_file =
+        cache_file(options.folder, "environment\n" + id + "\n" + describe(stamp_of(utf8_to_path(id))));
     if (take_from_cache(found)) return;
+    const auto fingerprint = environment_fingerprint(registry, id);
+    if (const auto kept = fingerprint ? load_kept(options.bakes, kept_key(id, *fingerprint)) : std::nullopt) {
+        found.picture = small_panorama(kept->panorama, kSidePx);
+        skip(found.work, "decoding an environment for its small picture",
+             "its panorama lay in the disk cache");
+        return;
+    }
     found.picture = small_panorama(load_environment(registry, id), kSidePx);
     ++found.work.environments_decoded;
 }
@@ -176,7 +185,7 @@ void Thumbnails::State::start(const Key& key) {
                 find_preset_picture(registry, options.folder, utf8_to_path(id), *found);
                 break;
             case Kind::Environment:
-                find_environment_picture(registry, options.folder, id, *found);
+                find_environment_picture(registry, options, id, *found);
                 break;
             case Kind::Mesh:
                 find_mesh_picture(registry, options.folder, id, *found);
@@ -277,7 +286,8 @@ void Thumbnails::forget(Kind kind, const std::string& id) {
 
 bool Thumbnails::step(bool nothing_else_to_do) {
     State& state = *state_;
-    if (!nothing_else_to_do || state.jobs.is_running(state.job)) return false;
+    // Not beside a job without a name either: it may be keeping what the next picture is made of.
+    if (!nothing_else_to_do || !state.jobs.idle()) return false;
     if (state.to_draw) {
         if (!state.light && !state.light_failed) {
             state.start_light();

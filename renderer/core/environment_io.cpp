@@ -7,13 +7,15 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <exception>
+#include <fstream>
 #include <system_error>
 
 namespace patina {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kHashedAtOnce = std::size_t{1} << 17;  ///< bytes that stay in a core's own cache
 
 /// What a folder holds, in the order of the names; nothing where it cannot be read.
 std::vector<fs::path> entries(const fs::path& folder) {
@@ -61,11 +63,15 @@ Environment load_environment_file(const fs::path& file) {
 }
 
 std::optional<std::uint64_t> environment_file_hash(const fs::path& file) {
-    try {
-        return hash_bytes(read_file(file));
-    } catch (const std::exception&) {
-        return std::nullopt;  // whoever decodes it says what is wrong
-    }
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) return std::nullopt;
+    std::ifstream in(file, std::ios::binary);
+    std::array<char, kHashedAtOnce> bytes;
+    std::uint64_t hash = 0;
+    while (in.read(bytes.data(), bytes.size()) || in.gcount() > 0)
+        hash = hash_bytes(std::as_bytes(std::span(bytes)).first(std::size_t(in.gcount())), hash);
+    if (in.bad() || !in.eof()) return std::nullopt;  // whoever decodes it says what is wrong
+    return hash;
 }
 
 std::vector<EnvironmentFile> list_blender_studio_lights(std::span<const fs::path> folders) {

@@ -157,9 +157,17 @@ void decode_rows(const ImageCodec& codec, const ImageSource& source, const Image
     int turn = 1;
     const auto begin = [&](const Image& shape, int orientation) {
         turn = orientation;
-        turn == 1 ? rows.begin(shape) : turned.begin(shape);
+        if (turn == 1)
+            rows.begin(shape);
+        else
+            turned.begin(shape);
     };
-    const auto add = [&](const std::byte* row) { turn == 1 ? rows.row(row) : turned.add(row); };
+    const auto add = [&](const std::byte* row) {
+        if (turn == 1)
+            rows.row(row);
+        else
+            turned.add(row);
+    };
     codec.decode_rows(source, {.begin = begin, .row = add});
     if (turn != 1) give_rows(oriented(std::move(turned.image), turn), rows);
 }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kHalfTexel = 4 * sizeof(std::uint16_t);
 
+/// Before the levels are defined: drivers make room for as many as a texture says that it will have.
 void set_cube_filter(GLenum target, GLenum minify, int mips) {
     glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GLint(minify));
     glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -24,14 +25,14 @@ void set_cube_filter(GLenum target, GLenum minify, int mips) {
 void make_panorama(const PanoramaLevels& panorama, GpuEnvironment& result) {
     result.panorama = std::make_shared<Texture>(Texture::make());
     glBindTexture(GL_TEXTURE_2D, result.panorama->name());
-    for (std::size_t i = 0; i < panorama.levels.size(); ++i)
-        glTexImage2D(GL_TEXTURE_2D, GLint(i), GL_RGBA16F, panorama.levels[i].width, panorama.levels[i].height,
-                     0, GL_RGBA, GL_HALF_FLOAT, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, GLint(panorama.levels.size()) - 1);
+    for (std::size_t i = 0; i < panorama.levels.size(); ++i)
+        glTexImage2D(GL_TEXTURE_2D, GLint(i), GL_RGBA16F, panorama.levels[i].width, panorama.levels[i].height,
+                     0, GL_RGBA, GL_HALF_FLOAT, nullptr);
     result.panorama_scale = std::ldexp(1.0f, panorama.exponent);
     result.panorama_lights = panorama.lights;
     result.texels_per_radian = float(panorama.levels[0].height / M_PI);
@@ -49,12 +50,12 @@ void make_levels(const LightLevels& light, GpuEnvironment& result) {
     const int mips = (int(light.levels.size()) + light.layers - 1) / light.layers;
     result.levels = Texture::make();
     glBindTexture(GL_TEXTURE_CUBE_MAP_ARRAY, result.levels.name());
+    set_cube_filter(GL_TEXTURE_CUBE_MAP_ARRAY, mips > 1 ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR, mips);
     for (int mip = 0; mip < mips; ++mip) {
         const int size = std::max(base >> mip, 1);
         glTexImage3D(GL_TEXTURE_CUBE_MAP_ARRAY, mip, GL_RGBA16F, size, size, 6 * light.layers, 0, GL_RGBA,
                      GL_HALF_FLOAT, nullptr);
     }
-    set_cube_filter(GL_TEXTURE_CUBE_MAP_ARRAY, GL_LINEAR_MIPMAP_NEAREST, mips);
     result.levels_scale = std::ldexp(1.0f, light.levels_exponent);
     result.layers = light.layers;
     result.roughness = light.roughness;
@@ -67,10 +68,10 @@ void make_irradiance(const LightLevels& light, GpuEnvironment& result) {
     result.irradiance_scale = std::ldexp(1.0f, light.irradiance_exponent);
     result.irradiance = Texture::make();
     glBindTexture(GL_TEXTURE_CUBE_MAP, result.irradiance.name());
+    set_cube_filter(GL_TEXTURE_CUBE_MAP, GL_LINEAR, 1);
     for (int i = 0; i < 6; ++i)
         glTexImage2D(GLenum(GL_TEXTURE_CUBE_MAP_POSITIVE_X + i), 0, GL_RGBA16F, cube.size, cube.size, 0,
                      GL_RGBA, GL_HALF_FLOAT, cube.rgba.data() + i * face);
-    set_cube_filter(GL_TEXTURE_CUBE_MAP, GL_LINEAR, 1);
 }
 
 }  // namespace

@@ -20,4 +20,13 @@ inline std::uint16_t to_half(float value) {
     return std::uint16_t(sign | (magnitude < 0x38800000u ? subnormal : normal));
 }
 
+/// Precondition: finite.
+inline float from_half(std::uint16_t half) {
+    const std::uint32_t sign = std::uint32_t(half & 0x8000u) << 16;
+    const std::uint32_t magnitude = std::uint32_t(half & 0x7fffu) << 13;
+    // As if its exponent were a float's, and then scaled by 2^(127 − 15): exact for subnormal halves, too.
+    const float scaled = std::bit_cast<float>(magnitude) * 0x1p112f;
+    return std::bit_cast<float>(sign | std::bit_cast<std::uint32_t>(scaled));
+}
+
 }  // namespace patina::gl

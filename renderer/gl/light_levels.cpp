@@ -1,8 +1,8 @@
 #include "renderer/gl/light_levels.h"
 
-#include "renderer/gl/half.h"
 #include "renderer/gl/panorama.h"
 #include "renderer/ibl/cube.h"
+#include "renderer/ibl/half_simd.h"
 
 #include <glm/common.hpp>
 
@@ -14,22 +14,16 @@ namespace patina {
 
 namespace {
 
-using gl::to_half;
-
 float largest_of(const CubeMap& cube) {
-    float largest = 0.0f;
-    for (const glm::vec3& texel : cube.texels) largest = std::max({largest, texel.x, texel.y, texel.z});
-    return largest;
+    return cube.texels.empty() ? 0.0f
+                               : simd::largest_of(&cube.texels.front().x, 3 * int(cube.texels.size()), 0.0f);
 }
 
-std::vector<std::uint16_t> to_halves(const CubeMap& cube, int exponent) {
-    std::vector<std::uint16_t> rgba(4 * cube.texels.size());
-    const float scale = std::ldexp(1.0f, -exponent);
-    for (std::size_t i = 0; i < cube.texels.size(); ++i) {
-        for (int c = 0; c < 3; ++c) rgba[4 * i + c] = to_half(cube.texels[i][c] * scale);
-        rgba[4 * i + 3] = to_half(1.0f);
-    }
-    return rgba;
+LightLevels::Cube to_halves(const CubeMap& cube, int exponent) {
+    LightLevels::Cube halves{cube.size, UnsetVector<std::uint16_t>(4 * cube.texels.size())};
+    simd::to_rgba_halves(&cube.texels.front().x, int(cube.texels.size()), std::ldexp(1.0f, -exponent),
+                         halves.rgba.data());
+    return halves;
 }
 
 /// The texel at x, y of a face; one step over an edge it is the neighbouring face's border texel.
@@ -81,31 +75,39 @@ CubeMap enlarged(const CubeMap& cube, int size) {
     return result;
 }
 
-LightLevels make_light_levels(const BakedEnvironment& baked) {
-    if (baked.levels.empty() || baked.irradiance.size < 1)
+LightView view_of(const BakedEnvironment& baked) {
+    LightView view{.levels = {}, .irradiance = &baked.irradiance, .lights = baked.lights};
+    for (const PrefilteredLevel& level : baked.levels) view.levels.push_back(&level);
+    return view;
+}
+
+LightLevels make_light_levels(const LightView& baked, const ParallelFor& parallel_for) {
+    if (baked.levels.empty() || !baked.irradiance || baked.irradiance->size < 1)
         throw std::runtime_error("The light has no levels to draw with: bake it again.");
     std::vector<int> sizes;
     float largest = 0.0f;
     LightLevels result;
-    for (const PrefilteredLevel& level : baked.levels) {
-        sizes.push_back(level.cube.size);
-        largest = std::max(largest, largest_of(level.cube));
-        result.roughness.push_back(level.roughness);
+    for (const PrefilteredLevel* level : baked.levels) {
+        sizes.push_back(level->cube.size);
+        largest = std::max(largest, largest_of(level->cube));
+        result.roughness.push_back(level->roughness);
     }
     result.levels_exponent = half_exponent(largest);
     result.layers = layers_for(sizes);
     const int base = *std::max_element(sizes.begin(), sizes.end());
-    for (int k = 0; k < int(baked.levels.size()); ++k) {
+    result.levels.resize(baked.levels.size());
+    parallel_for(int(baked.levels.size()), [&](int k) {
         const int size = std::max(base >> (k / result.layers), 1);
-        const CubeMap& cube = baked.levels[k].cube;
-        result.levels.push_back(
-            {size, to_halves(cube.size == size ? cube : enlarged(cube, size), result.levels_exponent)});
-    }
-    result.irradiance_exponent = half_exponent(largest_of(baked.irradiance));
-    result.irradiance = {baked.irradiance.size, to_halves(baked.irradiance, result.irradiance_exponent)};
+        const CubeMap& cube = baked.levels[k]->cube;
+        result.levels[k] = to_halves(cube.size == size ? cube : enlarged(cube, size), result.levels_exponent);
+    });
+    result.irradiance_exponent = half_exponent(largest_of(*baked.irradiance));
+    result.irradiance = to_halves(*baked.irradiance, result.irradiance_exponent);
     result.sharpest = result.roughness.front();
-    result.lights = baked.lights;
+    result.lights.assign(baked.lights.begin(), baked.lights.end());
     return result;
 }
+
+LightLevels make_light_levels(const BakedEnvironment& baked) { return make_light_levels(view_of(baked)); }
 
 }  // namespace patina

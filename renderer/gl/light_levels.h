@@ -2,11 +2,13 @@
 // Pure; no GL is called, so it can be made on a worker.
 #pragma once
 
+#include "renderer/core/unset_vector.h"
 #include "renderer/gl/panorama.h"
 #include "renderer/ibl/bake.h"
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace patina {
@@ -16,7 +18,7 @@ struct GpuEnvironment;
 struct LightLevels {
     struct Cube {
         int size = 0;
-        std::vector<std::uint16_t> rgba;  ///< six faces of half floats, radiance · 2^−exponent
+        UnsetVector<std::uint16_t> rgba;  ///< six faces of half floats, radiance · 2^−exponent
     };
     std::vector<Cube>
         levels;  ///< level k goes to layer k mod layers of mip k div layers, and has that mip's size
@@ -36,7 +38,16 @@ struct PreparedLight {
     std::shared_ptr<const GpuEnvironment> panorama_of = {};  ///< whose panorama it is, instead of panorama
 };
 
+/// Baked light by reference.
+struct LightView {
+    std::vector<const PrefilteredLevel*> levels;  ///< ascending roughness
+    const CubeMap* irradiance = nullptr;
+    std::span<const ExtractedLight> lights;
+};
+LightView view_of(const BakedEnvironment& baked);
+
 /// Throws std::runtime_error where there is no light to draw with.
+LightLevels make_light_levels(const LightView& baked, const ParallelFor& parallel_for = serial_for);
 LightLevels make_light_levels(const BakedEnvironment& baked);
 
 /// How levels are laid out in mips of a cube-map array so that each gets at least its own size: the fewest

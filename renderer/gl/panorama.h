@@ -2,6 +2,7 @@
 // isotropic patches of the sphere. Pure; no GL is called, so it can be made on a worker.
 #pragma once
 
+#include "renderer/core/unset_vector.h"
 #include "renderer/ibl/bake.h"
 
 #include <cstdint>
@@ -15,7 +16,7 @@ struct PanoramaLevels {
         int height = 0;
         /// Half floats · 2^−exponent. Red, green and blue are the radiance without the extracted lights,
         /// alpha the mean channel of what these add: × a light's colour it completes the picture.
-        std::vector<std::uint16_t> rgba;
+        UnsetVector<std::uint16_t> rgba;
     };
     std::vector<Level> levels;
     std::vector<ExtractedLight> lights;  ///< those kept apart in alpha

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <type_traits>
 #include <utility>
 
@@ -110,18 +111,21 @@ std::string save_baked(const BakeCache& cache, const std::string& key, const Bak
     return save_entry(cache, kKind, key, counts, sections);
 }
 
-std::optional<BakedEnvironment> selected(const BakedEnvironment& entry, const BakeSettings& settings) {
-    BakedEnvironment result{.irradiance = {}, .lights = entry.lights, .notes = entry.notes};
-    if (settings.irradiance) {
-        if (entry.irradiance.size == 0) return std::nullopt;
-        result.irradiance = entry.irradiance;
-    }
-    for (const float roughness : settings.roughness) {
-        const PrefilteredLevel* level = find_level(entry, roughness);
-        if (!level) return std::nullopt;
-        result.levels.push_back(*level);
-    }
-    return result;
+bool holds(const BakedEnvironment& entry, const BakeSettings& settings) {
+    return (!settings.irradiance || entry.irradiance.size > 0) &&
+           std::ranges::all_of(settings.roughness,
+                               [&](float roughness) { return find_level(entry, roughness) != nullptr; });
+}
+
+BakedEnvironment selected(BakedEnvironment entry, const BakeSettings& settings) {
+    assert(holds(entry, settings));
+    if (!settings.irradiance) entry.irradiance = {};
+    if (std::ranges::equal(entry.levels, settings.roughness, {}, &PrefilteredLevel::roughness)) return entry;
+    std::vector<PrefilteredLevel> levels;
+    levels.reserve(settings.roughness.size());
+    for (const float roughness : settings.roughness) levels.push_back(*find_level(entry, roughness));
+    entry.levels = std::move(levels);
+    return entry;
 }
 
 BakeSettings lacking(const BakedEnvironment& entry, const BakeSettings& settings) {
@@ -132,15 +136,15 @@ BakeSettings lacking(const BakedEnvironment& entry, const BakeSettings& settings
     return rest;
 }
 
-BakedEnvironment merged(const BakedEnvironment& entry, const BakedEnvironment& added) {
-    BakedEnvironment both = added;
-    if (both.irradiance.size == 0) both.irradiance = entry.irradiance;
-    if (both.lights.empty()) both.lights = entry.lights;
+BakedEnvironment merged(BakedEnvironment entry, BakedEnvironment added) {
+    BakedEnvironment both = std::move(added);
+    if (both.irradiance.size == 0) both.irradiance = std::move(entry.irradiance);
+    if (both.lights.empty()) both.lights = std::move(entry.lights);
     for (const std::string& note : entry.notes)
         if (std::find(both.notes.begin(), both.notes.end(), note) == both.notes.end())
             both.notes.push_back(note);
-    for (const PrefilteredLevel& level : entry.levels)
-        if (!find_level(added, level.roughness)) both.levels.push_back(level);
+    for (PrefilteredLevel& level : entry.levels)
+        if (!find_level(both, level.roughness)) both.levels.push_back(std::move(level));
     std::stable_sort(both.levels.begin(), both.levels.end(),
                      [](const auto& a, const auto& b) { return a.roughness < b.roughness; });
     return both;
@@ -150,20 +154,20 @@ std::optional<CachedBake> cached_bake(const Environment& environment, const Bake
                                       const BakeControl& control, const BakeCache& cache) {
     if (settings.roughness.empty() && !settings.irradiance) return CachedBake{.from_disk = true, .note = {}};
     const std::string key = bake_key(environment, settings);
-    const BakedEnvironment entry = load_baked(cache, key).value_or(BakedEnvironment{});
-    if (std::optional<BakedEnvironment> found = selected(entry, settings)) {
+    BakedEnvironment entry = load_baked(cache, key).value_or(BakedEnvironment{});
+    if (holds(entry, settings)) {
         control.progress(1.0f);
-        return CachedBake{.baked = std::move(*found), .from_disk = true, .note = {}};
+        return CachedBake{.baked = selected(std::move(entry), settings), .from_disk = true, .note = {}};
     }
     const BakeSettings rest = lacking(entry, settings);
     const std::optional<BakedEnvironment> baked = bake_environment(environment, rest, control);
     if (!baked) return std::nullopt;
-    BakedEnvironment whole = merged(entry, *baked);
+    BakedEnvironment whole = merged(std::move(entry), *baked);
     std::string note = save_baked(cache, key, whole.levels.size() <= kMostLevels ? whole : *baked);
     CachedBake result{.levels_baked = int(rest.roughness.size()),
                       .irradiance_baked = rest.irradiance,
                       .note = std::move(note)};
-    result.baked = settings.face_sizes.empty() ? *selected(whole, settings) : *baked;
+    result.baked = settings.face_sizes.empty() ? selected(std::move(whole), settings) : *baked;
     result.baked.timings = baked->timings;
     return result;
 }

@@ -26,13 +26,15 @@ std::optional<BakedEnvironment> load_baked(const BakeCache& cache, const std::st
 /// else empty).
 std::string save_baked(const BakeCache& cache, const std::string& key, const BakedEnvironment& baked);
 
-/// What an entry holds of the settings' levels and irradiance, nothing else; nullopt if anything is missing.
-std::optional<BakedEnvironment> selected(const BakedEnvironment& entry, const BakeSettings& settings);
+/// Whether an entry holds the settings' levels and irradiance.
+bool holds(const BakedEnvironment& entry, const BakeSettings& settings);
+/// These, nothing else. Precondition: it holds them.
+BakedEnvironment selected(BakedEnvironment entry, const BakeSettings& settings);
 /// The settings of what an entry lacks.
 BakeSettings lacking(const BakedEnvironment& entry, const BakeSettings& settings);
 /// What either holds; where both hold a level, added's. Precondition: the same environment and settings but
 /// for what was asked for.
-BakedEnvironment merged(const BakedEnvironment& entry, const BakedEnvironment& added);
+BakedEnvironment merged(BakedEnvironment entry, BakedEnvironment added);
 
 struct CachedBake {
     BakedEnvironment baked;

@@ -54,12 +54,12 @@ private:
     std::uint64_t promised_ = 0;  ///< of the whole, as the header says
 };
 
-template <class T>
-std::span<std::byte> section_of(std::vector<T>& values) {
+template <class T, class Allocator>
+std::span<std::byte> section_of(std::vector<T, Allocator>& values) {
     return std::as_writable_bytes(std::span(values));
 }
-template <class T>
-std::span<const std::byte> section_of(const std::vector<T>& values) {
+template <class T, class Allocator>
+std::span<const std::byte> section_of(const std::vector<T, Allocator>& values) {
     return std::as_bytes(std::span(values));
 }
 

@@ -67,5 +67,23 @@ TEST(KeptLight, draws_the_picture_of_what_was_decoded_bit_for_bit) {
     }
 }
 
+TEST(SceneLoader, gives_a_mesh_that_has_tangents_to_whoever_needs_none) {
+    const Registry registry = builtin_parts();
+    const WorkLedger& work = renderer().work();
+    SceneLoader loader(renderer(), registry, {});
+    const SceneOptions options{.size_px = glm::ivec2(96)};
+    const WorkLedger before = work;
+    const Scene painted = loader.scene("worn-paint", options);  // has a normal map
+    const Scene gold = loader.scene("gold", options);
+    const WorkLedger done = since(work, before);
+    EXPECT_EQ(done.meshes_loaded, 1u);
+    EXPECT_EQ(done.meshes_from_memory, 1u);
+    EXPECT_EQ(gold.mesh, painted.mesh);
+    SceneLoader alone(renderer(), registry, {});
+    const Scene bare = alone.scene("gold", options);
+    EXPECT_NE(bare.mesh, gold.mesh);
+    EXPECT_EQ(display_of(bare, options.size_px, 4).bytes, display_of(gold, options.size_px, 4).bytes);
+}
+
 }  // namespace
 }  // namespace patina

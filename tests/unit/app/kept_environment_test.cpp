@@ -1,5 +1,6 @@
 #include "app/kept_environment.h"
 
+#include "app/reconcile_load.h"
 #include "app/temporary_folder.h"
 #include "renderer/ibl/cache.h"
 
@@ -96,6 +97,15 @@ TEST(KeptEnvironment, tells_what_a_decoded_one_tells) {
     EXPECT_EQ(facts.content_hash, environment.content_hash);
     const Environment flat{.width = 4, .height = 3, .radiance = {12, glm::vec3(0.25f, 1.0f, 3.0f)}};
     EXPECT_NEAR(facts_of(flat).mean.z, 3.0f, 1e-6f);
+}
+
+TEST(KeptEnvironment, gives_the_small_picture_that_decoding_gives) {
+    const Environment environment = lamp_sky();
+    const Image decoded = small_panorama(environment, 16);
+    const Image kept = small_panorama(make_panorama_levels(environment), 16);
+    ASSERT_EQ(kept.bytes.size(), decoded.bytes.size());
+    for (std::size_t i = 0; i < decoded.bytes.size(); ++i)
+        EXPECT_NEAR(int(kept.bytes[i]), int(decoded.bytes[i]), 1) << i;
 }
 
 TEST(KeptEnvironment, refuses_a_file_cut_anywhere_or_longer) {

@@ -150,12 +150,13 @@ TEST(DemandedLight, is_drawn_with_coarse_levels_only_where_they_are_nearly_as_go
     LightOrder order{.id = "sky", .needed = one_roughness(0.2f), .first_light = true};
     order.held = shop.get(order)->held;
     HeldLight held = *shop.get(order)->held;
-    const BakedEnvironment drawn = drawn_light(held);
-    EXPECT_EQ(drawn.levels.front().roughness, 0.2f);
-    EXPECT_GE(drawn.levels[1].roughness, 0.4f);
-    EXPECT_EQ(drawn.levels.back().roughness, 1.0f);
+    const BakedEnvironment mean = mean_light(held);
+    const LightView drawn = drawn_light(held, mean);
+    EXPECT_EQ(drawn.levels.front()->roughness, 0.2f);
+    EXPECT_GE(drawn.levels[1]->roughness, 0.4f);
+    EXPECT_EQ(drawn.levels.back()->roughness, 1.0f);
     held.exact.lights = {{{0, 1, 0}, {5, 6, 7}, 0.01f}};  // which coarse levels hold too
-    EXPECT_EQ(drawn_light(held).levels.size(), 1u);
+    EXPECT_EQ(drawn_light(held, mean).levels.size(), 1u);
 }
 
 TEST(DemandedLight, reads_a_large_source_again_to_add_to_it) {
@@ -245,6 +246,22 @@ TEST(KeptLight, is_not_kept_of_a_source_that_changed_while_it_was_read) {
     shop.fingerprint = 2;
     EXPECT_NE(keep_light(shop.registry, order, *ready, *ready->light, shop.cache), "");
     EXPECT_FALSE(fs::exists(shop.cache.folder));
+}
+
+TEST(KeptLight, says_once_why_it_could_not_be_kept) {
+    Workshop shop;
+    shop.fingerprint = 1;
+    shop.cache.folder = "/dev/null/light";
+    const LightOrder mirror{.id = "sky", .needed = NeededLight{}};
+    const auto unbaked = shop.get(mirror);
+    EXPECT_TRUE(unbaked->notes.empty());
+    EXPECT_NE(
+        keep_light(shop.registry, mirror, *unbaked, *unbaked->light, shop.cache).find("/dev/null/light"),
+        std::string::npos);
+    const LightOrder rough{.id = "sky", .needed = one_roughness(0.37f)};
+    const auto baked = shop.get(rough);
+    ASSERT_EQ(baked->notes.size(), 1u);  // of the levels: the same sentence
+    EXPECT_EQ(keep_light(shop.registry, rough, *baked, *baked->light, shop.cache), "");
 }
 
 TEST(KeptLight, is_decoded_all_the_same_where_nothing_is_skipped) {

@@ -237,6 +237,29 @@ TEST(BakeCache, serves_fewer_levels_from_an_entry_with_more) {
     EXPECT_EQ(part->baked.irradiance.size, 0);
 }
 
+TEST(BakeCache, selects_levels_in_the_order_asked_for_and_as_often) {
+    const auto level = [](float roughness, float value) {
+        return PrefilteredLevel{roughness, {1, std::vector<glm::vec3>(6, glm::vec3(value))}};
+    };
+    const BakedEnvironment entry{.levels = {level(0.2f, 2.0f), level(0.5f, 5.0f), level(0.8f, 8.0f)},
+                                 .irradiance = {1, std::vector<glm::vec3>(6, glm::vec3(1.0f))}};
+    BakeSettings settings;
+    settings.roughness = {0.8f, 0.2f, 0.8f};
+    settings.irradiance = false;
+    ASSERT_TRUE(holds(entry, settings));
+    const BakedEnvironment found = selected(entry, settings);
+    ASSERT_EQ(found.levels.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_EQ(found.levels[i].cube.texels.at(5).x, 10.0f * settings.roughness[i]);
+    EXPECT_EQ(found.irradiance.size, 0);
+    settings.roughness = {0.2f, 0.5f, 0.8f};
+    settings.irradiance = true;
+    EXPECT_EQ(selected(entry, settings).irradiance.texels.size(), 6u);
+    settings.roughness.push_back(0.9f);
+    EXPECT_FALSE(holds(entry, settings));
+    EXPECT_FALSE(holds({.levels = entry.levels}, {.roughness = {0.2f}, .face_sizes = {}}));
+}
+
 TEST(BakeCache, bakes_only_what_an_entry_lacks_and_adds_it) {
     const ScratchFolder scratch;
     const BakeCache cache{scratch.path()};
