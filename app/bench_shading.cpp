@@ -46,7 +46,7 @@ std::vector<Way> ways() {
     add_mode(Shading::SplitSum, "split-sum");
     add_mode(Shading::Course, "course");
     add_mode(Shading::Fitted, "fitted, one tap");
-    list.push_back({"fitted, two taps", [](Renderer& renderer, Scene scene, RenderTarget& target) {
+    list.push_back({"fitted, three taps", [](Renderer& renderer, Scene scene, RenderTarget& target) {
                         scene.view.quality = Quality::High;
                         renderer.draw(scene, target);
                     }});

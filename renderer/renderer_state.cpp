@@ -26,7 +26,8 @@ gl::Texture make_brdf_texture() {
     return texture;
 }
 
-/// Slices: one tap F0 = 1, one tap F0 = 0.04, two taps likewise, the two taps' weights likewise.
+/// Pairs of slices, F0 = 1 first: the one tap, and the irradiance's weight beside it and beside three; two of
+/// three taps; the third and the weights of the second and third.
 gl::Texture make_lobe_texture() {
     constexpr int size = kLobeTableSize;
     std::vector<glm::vec4> texels(std::size_t(6) * size * size);
@@ -36,9 +37,10 @@ gl::Texture make_lobe_texture() {
             const auto put = [&](int slice, glm::vec4 texel) {
                 texels[std::size_t(slice + metal) * size * size + i] = texel;
             };
-            put(0, {node.one.kappa, node.one.log2_ratio, node.one_irradiance, 0.0f});
-            put(2, {node.two[0].kappa, node.two[0].log2_ratio, node.two[1].kappa, node.two[1].log2_ratio});
-            put(4, {node.second_weight, node.two_irradiance, 0.0f, 0.0f});
+            const auto& taps = node.three;
+            put(0, {node.one.kappa, node.one.log2_ratio, node.one_irradiance, node.three_irradiance});
+            put(2, {taps[0].kappa, taps[0].log2_ratio, taps[1].kappa, taps[1].log2_ratio});
+            put(4, {taps[2].kappa, taps[2].log2_ratio, node.second_weight, node.third_weight});
         }
     }
     const gl::KeepTextureBindings keep;

@@ -11,7 +11,7 @@
 namespace patina {
 
 enum class Shading { Course, SplitSum, Fitted, Reference };
-/// Of fitted shading: one tap of the environment and the irradiance, or two taps.
+/// Of fitted shading: one tap of the environment and the irradiance, or three taps.
 enum class Quality { Standard, High };
 enum class Tonemap { None, Neutral, Aces };
 enum class Background { Environment, Blurred, Plain };
@@ -73,7 +73,7 @@ inline constexpr std::array kQualities{
     Named<Quality>{Quality::Standard, "standard", "Standard",
                    "Fitted lobes with one look into the prefiltered light."},
     Named<Quality>{Quality::High, "high", "High",
-                   "Fitted lobes with two looks: closer to the integral, at half as much again."},
+                   "Fitted lobes with three looks: closer to the integral, at half as much again."},
 };
 inline constexpr std::array kTonemaps{
     Named<Tonemap>{Tonemap::None, "none", "None",

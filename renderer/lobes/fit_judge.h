@@ -11,7 +11,7 @@
 
 namespace patina::lobes {
 
-enum class Method { SplitSum, OneTap, TwoTaps };
+enum class Method { SplitSum, OneTap, ThreeTaps };
 inline constexpr int kMethods = 3;
 
 /// Root mean squares of the relative error (x − t)/max(t, 10⁻³ · mean) over the sphere's pixels.
@@ -23,7 +23,8 @@ struct Judgement {
 };
 
 struct JudgeSettings {
-    std::vector<float> roughness = {0.1f, 0.12f, 0.17f, 0.23f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.85f, 1.0f};
+    std::vector<float> roughness = {0.12f, 0.14f, 0.17f, 0.2f, 0.23f, 0.3f,
+                                    0.4f,  0.5f,  0.6f,  0.7f, 0.85f, 1.0f};
     int pixels = 500;
     int truth_samples = 8192;
 };

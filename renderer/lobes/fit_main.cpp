@@ -48,10 +48,11 @@ void write_table(const std::vector<LobePair>& nodes) {
             std::printf(half ? ", {" : "{");
             tap(n.one);
             std::printf(", %.4ff, {{", n.one_irradiance);
-            tap(n.two[0]);
-            std::printf(", ");
-            tap(n.two[1]);
-            std::printf("}}, %.4ff, %.4ff}", n.second_weight, n.two_irradiance);
+            for (std::size_t t = 0; t < n.three.size(); ++t) {
+                if (t) std::printf(", ");
+                tap(n.three[t]);
+            }
+            std::printf("}}, %.4ff, %.4ff, %.4ff}", n.second_weight, n.third_weight, n.three_irradiance);
         }
         std::printf("}}},\n");
     }
@@ -66,10 +67,8 @@ void judge_files(int count, char** files) {
     const FitLight light = make_fit_light(set, 512);
     const std::vector<Judgement> rows = judge(light, lobe_nodes(), {});
     for (const float f0 : {1.0f, 0.04f}) {
-        std::printf(
-            "F0 = %g: relative rms %%, roughness | split-sum, one tap, two taps | split-sum and one tap of "
-            "each\n",
-            f0);
+        std::printf("F0 = %g: relative rms %%, roughness | split-sum, one tap, three taps | these of each\n",
+                    f0);
         double mean[kMethods] = {};
         int n = 0;
         for (const Judgement& row : rows) {

@@ -14,7 +14,7 @@ namespace patina::lobes {
 namespace {
 
 constexpr int kN = kLobeTableSize;
-constexpr int kMost = 12;  ///< parameters of a node: two reflectances, six each
+constexpr int kMost = 18;  ///< parameters of a node: two reflectances, nine each
 /// Reflectances fitted at once, and how much each counts. The middle one keeps the mixture by φ honest.
 constexpr double kReflectance[] = {1.0, 0.04, 0.2};
 constexpr double kCounts[] = {0.4, 0.35, 0.25};
@@ -26,7 +26,8 @@ constexpr float kDarkest = 0.2f;
 double node_cosine(int i) { return std::max(1e-3, double(i * i) / ((kN - 1) * (kN - 1))); }
 double node_roughness(int j) { return brdf::kSharpestFitted + (1.0 - brdf::kSharpestFitted) * j / (kN - 1); }
 
-/// Parameters of one reflectance: {κ, ln ρ} of each tap, weight of the second, of the irradiance.
+/// Parameters of one reflectance: {κ, ln ρ} of each tap, weights of the second and third, of the
+/// irradiance.
 LobeNode to_node(const double* p, int taps) {
     constexpr double per_octave = 1.4426950408889634;
     LobeNode node;
@@ -34,10 +35,11 @@ LobeNode to_node(const double* p, int taps) {
         node.one = {float(p[0]), float(p[1] * per_octave)};
         node.one_irradiance = float(p[2]);
     } else {
-        node.two = {LobeTap{float(p[0]), float(p[1] * per_octave)},
-                    LobeTap{float(p[2]), float(p[3] * per_octave)}};
-        node.second_weight = float(p[4]);
-        node.two_irradiance = float(p[5]);
+        for (int t = 0; t < 3; ++t)
+            node.three[t] = {float(p[std::ptrdiff_t(2) * t]), float(p[2 * t + 1] * per_octave)};
+        node.second_weight = float(p[6]);
+        node.third_weight = float(p[7]);
+        node.three_irradiance = float(p[8]);
     }
     return node;
 }
@@ -72,7 +74,7 @@ public:
             double sum = 0.0;
             for (int k = 0; k < kN * kN; ++k)
                 sum += improve(sweep % 2 ? kN * kN - 1 - k : k, settings_.smoothness * easing);
-            settings_.progress(taps == 1 ? "one tap" : "two taps", sweep + 1, settings_.sweeps,
+            settings_.progress(taps == 1 ? "one tap" : "three taps", sweep + 1, settings_.sweeps,
                                sum / (kN * kN));
         }
         return nodes_;
@@ -99,8 +101,10 @@ private:
         return target;
     }
 
-    /// A first guess: Frostbite's dominant direction, a little sharper than the surface.
+    /// A first guess: Frostbite's dominant direction, a little sharper than the surface; three taps side by
+    /// side along the plane of incidence.
     void start() {
+        constexpr double kAside[] = {-0.5, 0.7, 2.0}, kNarrower[] = {-0.2, -0.1, 0.1};
         nodes_.assign(std::size_t(kN) * kN, Step{});
         damping_.assign(std::size_t(kN) * kN, 1e-3);
         for (int c = 0; c < kN * kN; ++c) {
@@ -110,11 +114,11 @@ private:
             for (int half = 0; half < 2; ++half) {
                 double* p = &nodes_[c][std::size_t(half) * per_];
                 for (int t = 0; t < taps_; ++t) {
-                    const double aside = taps_ == 1 ? 0.0 : t ? 1.2 * spread : -0.4 * spread;
+                    const double aside = taps_ == 1 ? 0.0 : kAside[t] * spread;
                     p[std::ptrdiff_t(2) * t] = std::clamp((0.8 * turned + aside) / alpha, -2.0, 3.0);
-                    p[2 * t + 1] = taps_ == 1 ? -0.05 : t ? 0.0 : -0.2;
+                    p[2 * t + 1] = taps_ == 1 ? -0.05 : kNarrower[t];
                 }
-                if (taps_ == 2) p[4] = 0.5;
+                if (taps_ == 3) p[6] = p[7] = 0.3;
                 p[per_ - 1] = 0.05;
             }
         }
@@ -134,7 +138,7 @@ private:
                 const Frame& frame = frames_[f];
                 const glm::vec3 R = frame.to_world({-s, 0.0f, float(target.NoV)});
                 const Lanes seen =
-                    lobe_radiance(light_, node, taps_ == 2, {R, frame.N, float(target.roughness)});
+                    lobe_radiance(light_, node, taps_ == 3, {R, frame.N, float(target.roughness)});
                 const Lanes& truth = target.radiance[std::size_t(z) * frames + f];
                 float* to = &out[(std::size_t(z) * frames + f) * kLanes];
                 for (int e = 0; e < kLanes; ++e)
@@ -175,7 +179,7 @@ private:
             for (int t = 0; t < taps_; ++t) {
                 double& turn = q[std::ptrdiff_t(2) * t];
                 turn = std::clamp(turn, -std::min(3.0, widest), std::min(4.0, widest));
-                const double least = std::log(brdf::kSharpestFitted / roughness) - 0.1;
+                const double least = std::log(kSharpestLevel / roughness) - 0.1;
                 q[2 * t + 1] = std::clamp(q[2 * t + 1], std::max(-1.6, least),
                                           std::min(1.0, 0.02 - std::log(roughness)));
             }
@@ -275,17 +279,18 @@ private:
 
 }  // namespace
 
-Lanes lobe_radiance(const FitLight& light, const LobeNode& node, bool two, const LobeView& view) {
+Lanes lobe_radiance(const FitLight& light, const LobeNode& node, bool three, const LobeView& view) {
     const float alpha = view.roughness * view.roughness, log2_roughness = std::log2(view.roughness);
     Lanes sum{};
     const auto add = [&](const LobeTap& tap, float weight) {
         light.add_prefiltered(sum, brdf::tap_direction(view.R, view.N, tap.kappa, alpha),
                               log2_roughness + tap.log2_ratio, weight);
     };
-    if (two) {
-        add(node.two[0], 1.0f - node.second_weight - node.two_irradiance);
-        add(node.two[1], node.second_weight);
-        light.irradiance[0].add_to(sum, view.N, node.two_irradiance);
+    if (three) {
+        add(node.three[0], 1.0f - node.second_weight - node.third_weight - node.three_irradiance);
+        add(node.three[1], node.second_weight);
+        add(node.three[2], node.third_weight);
+        light.irradiance[0].add_to(sum, view.N, node.three_irradiance);
     } else {
         add(node.one, 1.0f - node.one_irradiance);
         light.irradiance[0].add_to(sum, view.N, node.one_irradiance);
@@ -295,12 +300,12 @@ Lanes lobe_radiance(const FitLight& light, const LobeNode& node, bool two, const
 
 std::vector<LobePair> fit_lobes(const FitLight& light, const FitSettings& settings) {
     Fitter fitter(light, settings);
-    const std::vector<Step> one = fitter.fit(1), two = fitter.fit(2);
+    const std::vector<Step> one = fitter.fit(1), three = fitter.fit(3);
     std::vector<LobePair> result;
     for (std::size_t c = 0; c < one.size(); ++c) {
         LobePair pair;
         for (int half = 0; half < 2; ++half) {
-            LobeNode node = to_node(&two[c][std::size_t(half) * 6], 2);
+            LobeNode node = to_node(&three[c][std::size_t(half) * 9], 3);
             const LobeNode single = to_node(&one[c][std::size_t(half) * 3], 1);
             node.one = single.one;
             node.one_irradiance = single.one_irradiance;

@@ -28,7 +28,7 @@ struct LobeView {
     float roughness;
 };
 
-/// P of one point by a node's lobes; two: both taps instead of one.
-Lanes lobe_radiance(const FitLight& light, const LobeNode& node, bool two, const LobeView& view);
+/// P of one point by a node's lobes; three: three taps instead of one.
+Lanes lobe_radiance(const FitLight& light, const LobeNode& node, bool three, const LobeView& view);
 
 }  // namespace patina::lobes

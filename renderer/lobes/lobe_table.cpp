@@ -15,7 +15,7 @@ constexpr LobePair kNodes[] = {
 #include "renderer/lobes/fitted_lobes.inc"
 };
 static_assert(std::size(kNodes) == std::size_t(kLobeTableSize) * kLobeTableSize);
-static_assert(sizeof(LobeNode) == 9 * sizeof(float));
+static_assert(sizeof(LobeNode) == 12 * sizeof(float));
 
 LobeNode mixed(const LobeNode& a, const LobeNode& b, float share) {
     const auto mix = [share](float x, float y) { return x + (y - x) * share; };
@@ -24,9 +24,10 @@ LobeNode mixed(const LobeNode& a, const LobeNode& b, float share) {
     };
     return {tap(a.one, b.one),
             mix(a.one_irradiance, b.one_irradiance),
-            {tap(a.two[0], b.two[0]), tap(a.two[1], b.two[1])},
+            {tap(a.three[0], b.three[0]), tap(a.three[1], b.three[1]), tap(a.three[2], b.three[2])},
             mix(a.second_weight, b.second_weight),
-            mix(a.two_irradiance, b.two_irradiance)};
+            mix(a.third_weight, b.third_weight),
+            mix(a.three_irradiance, b.three_irradiance)};
 }
 
 }  // namespace
@@ -46,7 +47,7 @@ LobeNode lobe_at(std::span<const LobePair> nodes, float NoV, float roughness, fl
                  at.y - float(j));
 }
 
-LobeReach lobe_reach(float lowest_roughness, float highest_roughness, bool two_taps) {
+LobeReach lobe_reach(float lowest_roughness, float highest_roughness, bool three_taps) {
     const auto row = [](float roughness) {
         return brdf::lobe_coordinates(1.0f, roughness).y * float(kLobeTableSize - 1);
     };
@@ -59,8 +60,8 @@ LobeReach lobe_reach(float lowest_roughness, float highest_roughness, bool two_t
                 low = std::min(low, tap.log2_ratio);
                 high = std::max(high, tap.log2_ratio);
             };
-            if (!two_taps) include(node.one);
-            for (int t = 0; two_taps && t < 2; ++t) include(node.two[t]);
+            if (!three_taps) include(node.one);
+            for (int t = 0; three_taps && t < 3; ++t) include(node.three[t]);
         }
     }
     return {std::exp2(low), std::exp2(high)};

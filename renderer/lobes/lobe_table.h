@@ -20,9 +20,10 @@ struct LobeTap {
 struct LobeNode {
     LobeTap one;
     float one_irradiance = 0.0f;
-    std::array<LobeTap, 2> two;
+    std::array<LobeTap, 3> three;
     float second_weight = 0.0f;
-    float two_irradiance = 0.0f;
+    float third_weight = 0.0f;
+    float three_irradiance = 0.0f;
 };
 
 struct LobePair {
@@ -43,6 +44,6 @@ struct LobeReach {
     float sharpest = 1.0f;
     float widest = 1.0f;
 };
-LobeReach lobe_reach(float lowest_roughness, float highest_roughness, bool two_taps);
+LobeReach lobe_reach(float lowest_roughness, float highest_roughness, bool three_taps);
 
 }  // namespace patina

@@ -27,7 +27,7 @@
 // Fitted lobes. A prefiltered level of roughness ρ holds the environment under the lobe of N = V. The true lobe of (NoV, r)
 // lies elsewhere, towards N, and is narrower across the plane of incidence; far from its middle it has tails. So
 //     P ≈ Σ w_i · level(ρ_i) along R + κ_i α (N − R)  +  w_E · E(N)/π,      Σ w_i + w_E = 1           (3)
-// with one or two taps. κ_i, log₂(ρ_i/r), w_i and w_E are read from a table over (√NoV, r), fitted once for F0 = 1 and
+// with one or three taps. κ_i, log₂(ρ_i/r), w_i and w_E are read from a table over (√NoV, r), fitted once for F0 = 1 and
 // once for 0.04 (renderer/lobes/): at grazing angles Schlick's Fc cuts the lobe's steep side away. Between the two they are
 // mixed by φ, the share of the reflected energy that Fc carries,
 //     φ(f0) = s(f0)/s(0.04),   s(f0) = (1 − f0) B / (f0 · Ess + (1 − f0) B).                        (4)
@@ -186,7 +186,7 @@ PATINA_FN float core_tangent2(float q, float alpha2, float alpha1_2) {
 // The wider lobe of a fitted one's split: below this multiple of the sharpest level's roughness, where no stored level is
 // as narrow as the true lobe across the plane of incidence, the tails are those of a lobe about as far above it. The fit is
 // good there, the core holds most of the light, and the two meet where sampling ends.
-const float kCoreReach = 1.3f;
+const float kCoreReach = 1.5f;
 PATINA_FN float tail_roughness(float roughness, float sharpest) {
     float reach = kCoreReach * sharpest;
     return min(max(reach + 0.8f * (reach - roughness), roughness), 1.0f);

@@ -31,13 +31,15 @@ vec3 wide_lobe_light(LobePoint p) {
     float log2_roughness = log2(max(p.roughness, level_layout.z));
 #ifdef HAS_FITTED
     float alpha = max(square(p.roughness), level_layout.w);
-#ifdef HAS_TWO_TAPS
+#ifdef HAS_THREE_TAPS
     vec4 taps = lobe_slice(p, 2.0);
-    vec2 weights = lobe_slice(p, 4.0).xy;   // of the second tap and the irradiance
-    vec3 light = (1.0 - weights.x - weights.y) *
+    vec4 third = lobe_slice(p, 4.0);    // and the weights of the second and third
+    float irradiance = lobe_slice(p, 0.0).w;
+    vec3 light = (1.0 - third.z - third.w - irradiance) *
                  prefiltered_light(tap_direction(p.R, p.N, taps.x, alpha), log2_roughness + taps.y);
-    light += weights.x * prefiltered_light(tap_direction(p.R, p.N, taps.z, alpha), log2_roughness + taps.w);
-    return light + weights.y * p.irradiance;
+    light += third.z * prefiltered_light(tap_direction(p.R, p.N, taps.z, alpha), log2_roughness + taps.w);
+    light += third.w * prefiltered_light(tap_direction(p.R, p.N, third.x, alpha), log2_roughness + third.y);
+    return light + irradiance * p.irradiance;
 #else
     vec3 tap = lobe_slice(p, 0.0).xyz;
     vec3 light = prefiltered_light(tap_direction(p.R, p.N, tap.x, alpha), log2_roughness + tap.y);

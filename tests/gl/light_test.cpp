@@ -1,3 +1,4 @@
+#include "renderer/brdf.h"
 #include "renderer/gl/half.h"
 #include "renderer/gl/light_levels.h"
 #include "renderer/gl/mesh_prepare.h"
@@ -118,7 +119,7 @@ TEST(Light, there_is_no_step_where_the_sharpest_level_begins) {
         return glm::vec3(0.2f + (d.x > 0.3f ? 3.0f : 0.0f) + (d.y > 0.9f ? 40.0f : 0.0f));
     };
     const Environment environment = make_panorama(radiance, 256);
-    BakeSettings settings;
+    BakeSettings settings = drawing_bake_settings();
     settings.max_face_size = 64;
     const auto baked = bake_environment(environment, settings, {});
     Scene scene = make_scene(renderer().upload_environment(environment, *baked), sphere());
@@ -139,9 +140,19 @@ TEST(Light, there_is_no_step_where_the_sharpest_level_begins) {
         }
         return sum / total;
     };
-    const double across = difference(picture(0.0995f), picture(0.1005f));
-    const double above = difference(picture(0.1005f), picture(0.1015f));
-    EXPECT_LT(across, 3.0 * above + 1e-3);
+    const auto expect_smooth = [&](float edge) {
+        const double across = difference(picture(edge - 5e-4f), picture(edge + 5e-4f));
+        const double above = difference(picture(edge + 5e-4f), picture(edge + 1.5e-3f));
+        EXPECT_LT(across, 3.0 * above + 1e-3) << edge;
+    };
+    for (const Quality quality : {Quality::Standard, Quality::High}) {
+        scene.view.quality = quality;
+        expect_smooth(brdf::kCoreReach * kSharpestLevel);  // no samples of the panorama from there on
+        expect_smooth(brdf::kSharpestFitted);
+    }
+    scene.view.shading = Shading::SplitSum;
+    expect_smooth(kSharpestLevel);
+    scene.view.shading = Shading::Fitted;
     // And towards the mirror: the lobe closes continuously.
     EXPECT_LT(difference(picture(0.0f), picture(1e-3f)), 1e-3);
     EXPECT_LT(difference(picture(0.0f), picture(5e-3f)), 0.02);

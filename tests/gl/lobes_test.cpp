@@ -58,8 +58,9 @@ glm::vec3 expected_light(const Case& c, glm::vec3 N, glm::vec3 V) {
     const glm::vec3 irradiance = linear_radiance(N, linear_slope(1.0f));
     glm::vec3 P;
     if (c.quality == Quality::High)
-        P = (1.0f - lobe.second_weight - lobe.two_irradiance) * tap(lobe.two[0]) +
-            lobe.second_weight * tap(lobe.two[1]) + lobe.two_irradiance * irradiance;
+        P = (1.0f - lobe.second_weight - lobe.third_weight - lobe.three_irradiance) * tap(lobe.three[0]) +
+            lobe.second_weight * tap(lobe.three[1]) + lobe.third_weight * tap(lobe.three[2]) +
+            lobe.three_irradiance * irradiance;
     else
         P = (1.0f - lobe.one_irradiance) * tap(lobe.one) + lobe.one_irradiance * irradiance;
     const auto w = brdf::split_sum_weights(glm::vec3(1.0f), c.metallic, ab);

@@ -43,7 +43,7 @@ TEST(Shaders, features_are_only_what_the_material_uses) {
     EXPECT_EQ(features_of(material, bound, view, light), Features(Feature::Fitted));
     view.quality = Quality::High;
     EXPECT_EQ(features_of(material, bound, view, light),
-              Features(Feature::Fitted) | Features(Feature::TwoTaps));
+              Features(Feature::Fitted) | Features(Feature::ThreeTaps));
     view.shading = Shading::SplitSum;
     EXPECT_EQ(features_of(material, bound, view, light), 0u);
     material.roughness.value = 0.12f;
