@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kReplicates = ReferenceTarget::kReplicates;
 constexpr int kMostAtOnce = 16;  ///< points of a slice, each of which sees the pixel's area at one place
-constexpr int kMostOfMiddle = blocks::kMostPoints;
+constexpr int kMostOfMiddle = 256;
 static_assert(LightSampler::kMostCells == blocks::kLightCells);
 constexpr float kWeightOfOne = 1.0f / 4096.0f;
 constexpr int kMostSteps = 16;            ///< of a slice
@@ -43,37 +43,19 @@ int longest_of(const ReferenceOptions& options) {
     return (options.max_samples + kReplicates - 1) / kReplicates;
 }
 
-struct Points {
-    blocks::PointBlock block{};
-    gl::LightPoints light;
-};
-Points make_points(const LightSampler& light, const Place& place, const ReferenceOptions& options) {
-    const int cells = int(light.cells().size());
-    Points points;
-    points.light.cells = cells;
-    points.light.rows.resize(std::size_t(2) * place.count * cells);
+gl::SlicePoints make_points(const LightSampler& light, const Place& place, const ReferenceOptions& options) {
+    gl::SlicePoints points;
     for (int i = 0; i < place.count; ++i) {
         const std::uint32_t index = sequence_index(place.replicate, place.first + i, longest_of(options));
         const glm::dvec3 u = scrambled_sobol(index, seed_of(options.seed, Light));
-        glm::vec4* const row = &points.light.rows[std::size_t(2) * i * cells];
-        for (int k = 0; k < cells; ++k) {
+        for (int k = 0; k < int(light.cells().size()); ++k) {
             const LightSample sample = light.sample(k, {u.x, u.y});
-            row[k] = glm::vec4(glm::vec3(sample.direction), float(sample.density));
-            row[cells + k] = glm::vec4(sample.radiance, 0.0f);
+            points.light.emplace_back(glm::vec3(sample.direction), 0.0f);
+            points.light.emplace_back(sample.radiance, 0.0f);
         }
         const glm::dvec3 v = scrambled_sobol(index, seed_of(options.seed, Reflection));
         const double phi = 2.0 * std::numbers::pi * v.x;
-        glm::vec4* const rows = &points.block.point_rows[std::size_t(2) * i];
-        rows[0] = glm::vec4(glm::dvec4(std::cos(phi), std::sin(phi), v.y, v.z));
-        rows[1] = glm::vec4(float(u.z), 0.0f, 0.0f, 0.0f);
-    }
-    for (int k = 0; k < cells; ++k) {
-        const LightCell& cell = light.cells()[k];
-        const double share = light.total() > 0.0 ? cell.light / light.total() : 1.0 / cells;
-        const double density = cell.light > 0.0 ? 1.0 / cell.light : 0.0;
-        glm::vec4* const rows = &points.block.cell_rows[std::size_t(2) * k];
-        rows[0] = glm::vec4(glm::dvec4(cell.direction, cell.spread));
-        rows[1] = glm::vec4(glm::dvec4(share, density, std::sqrt(cell.spread), 0.0));
+        points.reflection.emplace_back(glm::dvec4(std::cos(phi), std::sin(phi), v.y, v.z));
     }
     return points;
 }
@@ -230,8 +212,8 @@ float Reference::share_done() const {
 /// So many more rows of the slice that is next.
 void Reference::State::draw(int count) {
     if (rows == 0) {
-        const Points points = make_points(*light, next, options);
-        gl::set_reference_points(target, points.block, points.light);
+        if (progress.samples == 0 && next.replicate == 0) renderer.draw_reference_cells(scene, target);
+        gl::set_reference_points(target, make_points(*light, next, options));
     }
     const int end = std::min(rows + count, target.size.y);
     const Renderer::ReferenceSlice slice{.replicate = next.replicate,
@@ -307,6 +289,22 @@ Image Reference::inner_pixels() const {
             set_texel(mask, x, size.y - 1 - y, 0, inside ? 1.0f : 0.0f);
         }
     return mask;
+}
+
+ReferenceEstimates Reference::estimates() const {
+    const State& state = *state_;
+    const std::size_t pixels = state.counts.size() / 2;
+    const std::vector<float> values = gl::read_replicates(state.target);
+    std::vector<float> samples(pixels);
+    ReferenceEstimates known;
+    known.mean.resize(pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        samples[i] = state.counts[2 * i];
+        for (int k = 0; k < kReplicates; ++k) known.mean[i] += values[std::size_t(k) * pixels + i];
+        known.mean[i] /= samples[i] * kWeightOfOne;
+    }
+    known.half_width = half_widths_of(values, kReplicates, samples);
+    return known;
 }
 
 TargetHandle draw_reference(Renderer& renderer, const Scene& scene, glm::ivec2 size_px,

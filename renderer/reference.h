@@ -21,6 +21,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace patina {
 
@@ -38,6 +39,13 @@ struct ReferenceProgress {
     std::optional<ConfidenceInterval> confidence;
     bool converged = false;  ///< within the tolerance
     bool done = false;       ///< converged or at the limit
+};
+
+/// What is known of each pixel, bottom row first.
+struct ReferenceEstimates {
+    std::vector<float>
+        mean;  ///< of the three channels; of the mesh alone, whose share of the pixel scales it
+    std::vector<float> half_width;  ///< of its 95 % interval, as ConfidenceInterval's; negative: no mesh
 };
 
 class Reference {
@@ -70,6 +78,8 @@ public:
     void write(RenderTarget& target) const;
     /// 1 where the mesh covers a pixel and all around it, else 0: 1 channel, U8, row 0 at the top.
     Image inner_pixels() const;
+    /// Precondition: judged, as it is once it is done.
+    ReferenceEstimates estimates() const;
 
 private:
     struct State;
