@@ -8,10 +8,11 @@
 // occlusion map scales the light of the environment, while emission is added as it is.
 //
 // How: eight replicates grow side by side along runs of an Owen-scrambled Sobol sequence, each an unbiased
-// estimate; their scatter gives the confidence interval. Same scene, same options, same bytes. With a
-// tolerance, pixels rest whose whole neighbourhood is known well enough, at first to a few percent, in the
-// end to the tolerance: the few that need many points get them. Without one all pixels have the same number
-// of points.
+// estimate; their scatter gives the confidence interval. Each slice of a few points sees all pixels at one
+// place of their area; what a pixel reflects of the light's cells, by which it draws from them, is found once
+// for its middle. Same scene, same options, same bytes. With a tolerance, pixels rest whose whole
+// neighbourhood is known well enough, at first to a few percent, in the end to the tolerance: the few that
+// need many points get them. Without one all pixels have the same number of points.
 #pragma once
 
 #include "renderer/core/confidence.h"

@@ -134,7 +134,7 @@ blocks::CellBlock cell_block(const LightSampler& light) {
                             .cell_rows = {}};
     for (std::size_t k = 0; k < cells.size(); ++k) {
         block.cell_rows[2 * k] = glm::vec4(glm::dvec4(cells[k].direction, cells[k].spread));
-        block.cell_rows[2 * k + 1] = glm::vec4(std::sqrt(cells[k].spread), cells[k].light / all, 0.0f, 0.0f);
+        block.cell_rows[2 * k + 1].x = float(std::sqrt(cells[k].spread));
     }
     return block;
 }

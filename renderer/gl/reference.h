@@ -52,7 +52,8 @@ void set_reference_counts(ReferenceTarget& target, const std::vector<float>& cou
 void set_reference_light(ReferenceTarget& target, const LightSampler& light);
 /// What all pixels draw directions from, of the slices that follow.
 struct SlicePoints {
-    std::vector<glm::vec4> reflection;  ///< one a point: cos φ, sin φ, u; choice of lobe and of cell
+    std::vector<glm::vec4> reflection;  ///< shares of the cells in all light, four a texel; then one a point:
+                                        ///< cos φ, sin φ, u; choice of lobe and of cell
     std::vector<glm::vec4> light;       ///< of a point, two a cell: direction; radiance
 };
 void set_reference_points(ReferenceTarget& target, const SlicePoints& points);

@@ -58,7 +58,7 @@ PATINA_BLOCK(MaterialBlock) {
 // The light that the reference draws from (ibl/light_cells.h).
 PATINA_BLOCK(CellBlock) {
     vec4 light_layout;                       // cells; 1/all light; the panorama's width and height in texels
-    vec4 cell_rows[2 * PATINA_LIGHT_CELLS];  // of each: direction, spread; √spread, light, of all 1
+    vec4 cell_rows[2 * PATINA_LIGHT_CELLS];  // of each: direction, spread; √spread
 };
 
 #ifdef __cplusplus

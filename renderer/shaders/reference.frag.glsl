@@ -12,7 +12,8 @@
 
 uniform usampler2DRect first_reflected_cells;   // as reference_cells.frag.glsl leaves them
 uniform usampler2DRect last_reflected_cells;
-uniform samplerBuffer slice_points;        // a texel a point: cos φ, sin φ and u of a reflected direction; choice of lobe and cell
+uniform samplerBuffer slice_points;        // light of the cells, four a texel; then one a point: cos φ, sin φ and u of a reflected
+                                           // direction, choice of lobe and of cell
 uniform samplerBuffer light_points;        // a point's cells one after the other: direction; radiance
 uniform sampler2DRect light_texels;        // the panorama: radiance, cell
 uniform int reference_points;              // of the slice
@@ -30,7 +31,7 @@ float reflected_of(uint word, int byte) {
 }
 
 void set_word(uint word, int i, float before) {
-    vec4 light = vec4(cell_rows[8 * i + 1].y, cell_rows[8 * i + 3].y, cell_rows[8 * i + 5].y, cell_rows[8 * i + 7].y);
+    vec4 light = texelFetch(slice_points, i);
     cell_ends[i].x = before + reflected_of(word, 0) * light.x;
     cell_ends[i].y = cell_ends[i].x + reflected_of(word, 1) * light.y;
     cell_ends[i].z = cell_ends[i].y + reflected_of(word, 2) * light.z;
@@ -125,7 +126,7 @@ vec3 reflected() {
     set_cells();
     vec3 sum = vec3(0.0);
     for (int i = 0; i < reference_points; ++i) {
-        vec4 u = texelFetch(slice_points, i);
+        vec4 u = texelFetch(slice_points, kCellWords + i);
         sum += from_light(p, frame, i, u.w) + from_reflection(p, frame, u);
     }
     float scale = s.ao * camera_position.w / float(reference_points);
