@@ -31,8 +31,18 @@ constexpr int kSidePx = 512;
 constexpr int kErrorSidePx =
     96;  ///< errors by samples do not depend on the size; a long reference's time does
 constexpr double kClean = 0.01;  ///< 95 of 100 pixels are known to 1 %: no grain is seen
-constexpr double kPatienceSeconds = 60.0;
-constexpr std::array kSamples{64, 256, 1024};
+
+/// How much of it is measured.
+struct Extent {
+    double patience_seconds = 60.0;
+    int truth_samples = 32768;
+    int seeds = 4;
+    std::vector<int> samples{64, 256, 1024};
+};
+Extent extent_of(const BenchContext& context) {
+    if (!context.quick) return {};
+    return {.patience_seconds = 20.0, .truth_samples = 8192, .seeds = 2, .samples = {256}};
+}
 
 struct Look {
     const char* name;
@@ -66,13 +76,14 @@ struct Growth {
 };
 
 /// Turns as the accuracy meter's. The light's weights are made before, as on its worker.
-Growth grow(Renderer& renderer, const Scene& scene, std::shared_ptr<const LightSampler> light) {
+Growth grow(Renderer& renderer, const Scene& scene, std::shared_ptr<const LightSampler> light,
+            double patience_seconds) {
     const TargetHandle target = renderer.make_target(glm::ivec2(kSidePx), 1, TargetPrecision::Full);
     Reference reference(renderer, glm::ivec2(kSidePx), {.tolerance = kClean});
     Growth growth;
     const auto begin = std::chrono::steady_clock::now();
     reference.restart(scene, std::move(light));
-    while (!reference.progress().done && seconds_since(begin) < kPatienceSeconds) {
+    while (!reference.progress().done && seconds_since(begin) < patience_seconds) {
         const double before = seconds_since(begin);
         reference.draw_for(AccuracyMeter::kStepSeconds);
         reference.write(*target);
@@ -116,8 +127,8 @@ double light_of(const Gathered& picture) {
 struct Miss {
     double rms = 0.0, too_bright = 0.0;
 };
-Miss miss_of(Renderer& renderer, const Scene& scene, ReferenceOptions options, const Gathered& truth) {
-    constexpr int seeds = 4;
+Miss miss_of(Renderer& renderer, const Scene& scene, ReferenceOptions options, const Gathered& truth,
+             int seeds) {
     Miss miss;
     for (int seed = 1; seed <= seeds; ++seed) {
         options.seed = std::uint64_t(seed);
@@ -131,16 +142,17 @@ Miss miss_of(Renderer& renderer, const Scene& scene, ReferenceOptions options, c
 }
 
 /// Of pictures of so many samples, and of those that stop where they are clean.
-Json errors_of(Renderer& renderer, const Scene& scene, int truth_samples) {
+Json errors_of(Renderer& renderer, const Scene& scene, const Extent& extent) {
     // A seed of its own.
     const Gathered truth =
-        gathered(renderer, scene, {.max_samples = truth_samples, .tolerance = 0.0, .seed = 1000});
+        gathered(renderer, scene, {.max_samples = extent.truth_samples, .tolerance = 0.0, .seed = 1000});
     Json errors = Json::array();
-    for (const int samples : kSamples) {
-        const Miss miss = miss_of(renderer, scene, {.max_samples = samples, .tolerance = 0.0}, truth);
+    for (const int samples : extent.samples) {
+        const Miss miss =
+            miss_of(renderer, scene, {.max_samples = samples, .tolerance = 0.0}, truth, extent.seeds);
         errors.push_back({{"samples", samples}, {"rms", miss.rms}, {"too_bright", miss.too_bright}});
     }
-    const Miss miss = miss_of(renderer, scene, {.tolerance = kClean}, truth);
+    const Miss miss = miss_of(renderer, scene, {.tolerance = kClean}, truth, extent.seeds);
     errors.push_back({{"samples", "clean"}, {"rms", miss.rms}, {"too_bright", miss.too_bright}});
     return errors;
 }
@@ -156,21 +168,23 @@ Json bench_reference(const BenchContext& context) {
     std::vector<std::string> environments{"studio", "sunset"};
     for (const std::string& each : context.environments)
         if (each.find('.') != std::string::npos) environments.push_back(each);  // those given as files
-    const int truth_samples = context.quick ? 8192 : 32768;
+    const Extent extent = extent_of(context);
     Json json{{"renderer", stage.context.description()},
               {"side_px", kSidePx},
               {"clean", kClean},
               {"cases", Json::array()}};
-    std::printf("%-12s %-14s %9s %9s %9s %12s %10s %38s\n", "environment", "material", "first", "256",
-                "clean", "samples", "turn", "rms of 64, 256, 1024 samples, clean");
+    std::string counts;
+    for (const int samples : extent.samples) counts += std::to_string(samples) + ", ";
+    std::printf("%-12s %-14s %9s %9s %9s %12s %10s  rms of %sclean\n", "environment", "material", "first",
+                "256", "clean", "samples", "turn", counts.c_str());
     for (const std::string& environment : environments)
         for (const Look& look : kLooks) {
             const Scene scene = scene_of(loader, look, environment);
             const auto light =
                 std::make_shared<const LightSampler>(Reference::panorama_of(scene.environment));
             gathered(renderer, scene, {.max_samples = 8});  // compiles
-            const Growth growth = grow(renderer, scene, light);
-            const Json errors = errors_of(renderer, scene, truth_samples);
+            const Growth growth = grow(renderer, scene, light, extent.patience_seconds);
+            const Json errors = errors_of(renderer, scene, extent);
             std::printf("%-12s %-14s %9s %9s %9s %6.0f/%5d %7.0f ms", environment.c_str(), look.name,
                         seconds_text(growth.first).c_str(), seconds_text(growth.at_256).c_str(),
                         seconds_text(growth.clean).c_str(), growth.mean_samples, growth.samples,

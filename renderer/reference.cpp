@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kReplicates = ReferenceTarget::kReplicates;
 constexpr int kMostAtOnce = 16;  ///< points of a slice, each of which sees the pixel's area at one place
-constexpr int kMostOfMiddle = blocks::kMostPoints;
+constexpr int kMostOfMiddle = 256;
 static_assert(LightSampler::kMostCells == blocks::kLightCells);
 constexpr float kWeightOfOne = 1.0f / 4096.0f;
 constexpr int kMostSteps = 16;            ///< of a slice
@@ -43,39 +43,41 @@ int longest_of(const ReferenceOptions& options) {
     return (options.max_samples + kReplicates - 1) / kReplicates;
 }
 
-struct Points {
-    blocks::PointBlock block{};
-    gl::LightPoints light;
-};
-Points make_points(const LightSampler& light, const Place& place, const ReferenceOptions& options) {
-    const int cells = int(light.cells().size());
-    Points points;
-    points.light.cells = cells;
-    points.light.rows.resize(std::size_t(2) * place.count * cells);
+gl::SlicePoints make_points(const LightSampler& light, const Place& place, const ReferenceOptions& options) {
+    gl::SlicePoints points;
+    points.reflection.resize(blocks::kLightCells / 4, glm::vec4(0.0f));
+    for (std::size_t k = 0; k < light.cells().size() && light.total() > 0.0; ++k)
+        points.reflection[k / 4][int(k % 4)] = float(light.cells()[k].light / light.total());
     for (int i = 0; i < place.count; ++i) {
         const std::uint32_t index = sequence_index(place.replicate, place.first + i, longest_of(options));
         const glm::dvec3 u = scrambled_sobol(index, seed_of(options.seed, Light));
-        glm::vec4* const row = &points.light.rows[std::size_t(2) * i * cells];
-        for (int k = 0; k < cells; ++k) {
+        for (int k = 0; k < int(light.cells().size()); ++k) {
             const LightSample sample = light.sample(k, {u.x, u.y});
-            row[k] = glm::vec4(glm::vec3(sample.direction), float(sample.density));
-            row[cells + k] = glm::vec4(sample.radiance, 0.0f);
+            points.light.emplace_back(glm::vec3(sample.direction), 0.0f);
+            points.light.emplace_back(sample.radiance, 0.0f);
         }
         const glm::dvec3 v = scrambled_sobol(index, seed_of(options.seed, Reflection));
         const double phi = 2.0 * std::numbers::pi * v.x;
-        glm::vec4* const rows = &points.block.point_rows[std::size_t(2) * i];
-        rows[0] = glm::vec4(glm::dvec4(std::cos(phi), std::sin(phi), v.y, v.z));
-        rows[1] = glm::vec4(float(u.z), 0.0f, 0.0f, 0.0f);
-    }
-    for (int k = 0; k < cells; ++k) {
-        const LightCell& cell = light.cells()[k];
-        const double share = light.total() > 0.0 ? cell.light / light.total() : 1.0 / cells;
-        const double density = cell.light > 0.0 ? 1.0 / cell.light : 0.0;
-        glm::vec4* const rows = &points.block.cell_rows[std::size_t(2) * k];
-        rows[0] = glm::vec4(glm::dvec4(cell.direction, cell.spread));
-        rows[1] = glm::vec4(glm::dvec4(share, density, std::sqrt(cell.spread), 0.0));
+        points.reflection.emplace_back(glm::dvec4(std::cos(phi), std::sin(phi), v.y, v.z));
     }
     return points;
+}
+
+/// Of each pixel and those up to two away, one axis after the other.
+std::vector<float> largest_around(std::vector<float> values, glm::ivec2 size) {
+    constexpr int reach = 2;
+    std::vector<float> line(std::size_t(std::max(size.x, size.y)));
+    const auto along = [&](std::size_t first, int count, std::size_t step) {
+        for (int i = 0; i < count; ++i) line[std::size_t(i)] = values[first + std::size_t(i) * step];
+        for (int i = 0; i < count; ++i) {
+            const auto begin = line.begin() + std::max(i - reach, 0);
+            const auto end = line.begin() + std::min(i + reach + 1, count);
+            values[first + std::size_t(i) * step] = *std::max_element(begin, end);
+        }
+    };
+    for (int y = 0; y < size.y; ++y) along(std::size_t(y) * std::size_t(size.x), size.x, 1);
+    for (int x = 0; x < size.x; ++x) along(std::size_t(x), size.y, std::size_t(size.x));
+    return values;
 }
 
 double seconds_of(std::chrono::steady_clock::time_point since) {
@@ -98,14 +100,20 @@ struct Reference::State {
     double wanted = 0.0;        ///< to what pixels are to be known before they rest
     std::vector<float> counts;  ///< as ReferenceTarget's
     int counted = 0;            ///< samples when they were set
+    bool round_ended = false;   ///< and nothing was made of it yet
     int rows = 0;               ///< of the picture that have the next slice already
-    int rows_at_once = 0;       ///< of a step that follows the clock; 0: none did yet
+    bool by_clock = false;      ///< its steps follow one
+    double work_seconds = 0.0;  ///< of one unit of work in the last steps that did, rather more; 0: none yet
 
     int most_at_once() const;
-    int count_at_once() const { return rows_at_once > 0 && round == 0 ? 1 : most_at_once(); }
+    int count_at_once() const;
+    /// A row of the next slice: its points, and as much as three for what is done once.
+    double work_of_row() const { return next.count + 3.0; }
+    int rows_within(double seconds) const;
     glm::vec2 jitter_px() const;
     void begin();
     void draw(int count);
+    bool judgement_due() const;
     void judge();
     void rest(const std::vector<float>& half_widths);
     void end_round();
@@ -117,15 +125,23 @@ int Reference::State::most_at_once() const {
     return std::min(share, options.pixel_filter ? kMostAtOnce : kMostOfMiddle);
 }
 
+/// By the clock first one, so that there is soon a picture; then as many as there are already.
+int Reference::State::count_at_once() const {
+    const int most = most_at_once();
+    return by_clock && round < 16 ? std::min(most, 1 << std::max(round - 1, 0)) : most;
+}
+
+/// Shuffled: each place of the pixel is to see all kinds of directions.
 glm::vec2 Reference::State::jitter_px() const {
     if (!options.pixel_filter) return glm::vec2(0.0f);
     const std::uint32_t index = sequence_index(next.replicate, round, longest_of(options));
-    const glm::dvec3 u = scrambled_sobol(index, seed_of(options.seed, Pixel));
+    const glm::dvec3 u = shuffled_sobol(index, seed_of(options.seed, Pixel));
     return glm::vec2(glm::dvec2(u.x, u.y) - 0.5);
 }
 
 void Reference::State::begin() {
     progress = {};
+    round_ended = false;
     round = judged = counted = rows = 0;
     next = {.count = count_at_once()};
     wanted = std::max(options.tolerance, kFirstTolerance);
@@ -138,20 +154,9 @@ void Reference::State::begin() {
 /// Those pixels rest around which all that count are known well enough; what is no part of the mesh costs
 /// little.
 void Reference::State::rest(const std::vector<float>& half_widths) {
-    constexpr int around = 2;
-    const int width = target.size.x, height = target.size.y;
-    const auto is_known = [&](int x, int y) {
-        for (int j = std::max(y - around, 0); j <= std::min(y + around, height - 1); ++j)
-            for (int i = std::max(x - around, 0); i <= std::min(x + around, width - 1); ++i)
-                if (double(half_widths[std::size_t(j) * width + i]) > wanted) return false;
-        return true;
-    };
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const std::size_t i = std::size_t(y) * width + x;
-            const bool rests = half_widths[i] >= 0.0f && double(half_widths[i]) <= wanted && is_known(x, y);
-            counts[2 * i + 1] = rests ? 0.0f : 1.0f;
-        }
+    const std::vector<float> around = largest_around(half_widths, target.size);
+    for (std::size_t i = 0; i < half_widths.size(); ++i)
+        counts[2 * i + 1] = half_widths[i] >= 0.0f && double(around[i]) <= wanted ? 0.0f : 1.0f;
     gl::set_reference_counts(target, counts);
 }
 
@@ -173,17 +178,23 @@ void Reference::State::judge() {
     progress.confidence = confidence_of(half_widths);
     progress.converged = progress.confidence->p95 <= options.tolerance;
     if (progress.confidence->p95 <= wanted) wanted = std::max(options.tolerance, 0.5 * wanted);
+    round_ended = false;
+    progress.done = progress.converged || next.first >= longest_of(options);
     rest(half_widths);
 }
 
+bool Reference::State::judgement_due() const {
+    const bool last = next.first >= longest_of(options);
+    return round_ended &&
+           (last || (options.tolerance > 0.0 && round >= 4 && 4 * progress.samples >= 5 * judged));
+}
+
 void Reference::State::end_round() {
-    const int left = longest_of(options) - next.first - next.count;
     ++round;
-    next = {.replicate = 0, .first = next.first + next.count, .count = std::min(count_at_once(), left)};
-    const bool last = left <= 0;
-    const bool is_due = options.tolerance > 0.0 && round >= 4 && 4 * progress.samples >= 5 * judged;
-    if (last || is_due) judge();
-    progress.done = last || progress.converged;
+    round_ended = true;
+    next.replicate = 0;
+    next.first += next.count;
+    next.count = std::min(count_at_once(), longest_of(options) - next.first);
 }
 
 Reference::Reference(Renderer& renderer, glm::ivec2 size_px, const ReferenceOptions& options)
@@ -227,11 +238,16 @@ float Reference::share_done() const {
     return float(std::max(of_points, 1.0 / (missing * missing)));
 }
 
-/// So many more rows of the slice that is next.
+/// So many more rows of the slice that is next, or a judgement.
 void Reference::State::draw(int count) {
+    if (judgement_due()) {
+        judge();
+        return;
+    }
+    round_ended = false;
     if (rows == 0) {
-        const Points points = make_points(*light, next, options);
-        gl::set_reference_points(target, points.block, points.light);
+        if (progress.samples == 0 && next.replicate == 0) renderer.draw_reference_cells(scene, target);
+        gl::set_reference_points(target, make_points(*light, next, options));
     }
     const int end = std::min(rows + count, target.size.y);
     const Renderer::ReferenceSlice slice{.replicate = next.replicate,
@@ -252,26 +268,31 @@ void Reference::draw() {
     if (!state.progress.done && state.light) state.draw(state.target.size.y);
 }
 
+/// As many as take half the time, so that there is room for another step that takes longer. Each rasterises
+/// the mesh: many small ones would do little else.
+int Reference::State::rows_within(double seconds) const {
+    const int fewest = (target.size.y + kMostSteps - 1) / kMostSteps;
+    if (work_seconds <= 0.0) return 2 * fewest;
+    return std::clamp(int(0.5 * seconds / (work_seconds * work_of_row())), fewest, target.size.y);
+}
+
 void Reference::draw_for(double seconds) {
     State& state = *state_;
     if (!state.light) return;
-    const int height = state.target.size.y;
-    if (state.rows_at_once == 0) {
-        state.rows_at_once = (height + kMostSteps / 2 - 1) / (kMostSteps / 2);
-        if (state.progress.samples == 0) state.next.count = state.count_at_once();
-    }
+    state.by_clock = true;
+    if (state.progress.samples == 0 && state.rows == 0) state.next.count = state.count_at_once();
     const auto begin = std::chrono::steady_clock::now();
-    for (int steps = 1; !state.progress.done; ++steps) {
-        state.draw(state.rows_at_once);
+    double before = 0.0, after = 0.0;
+    for (bool first = true; !state.progress.done; first = false, before = after) {
+        if (!first && state.judgement_due()) return;  // which takes a while, too
+        const bool judges = state.judgement_due();
+        const int rows = std::min(state.rows_within(seconds), state.target.size.y - state.rows);
+        const double work = double(rows) * state.work_of_row();
+        if (!first && before + work * state.work_seconds > seconds) return;
+        state.draw(rows);
         gl::wait_for_gpu();
-        const double spent = seconds_of(begin);
-        // A step that fills half the time leaves room for another that takes longer.
-        const double step = std::max(spent / steps, 1e-6);
-        const double ratio = std::clamp(0.5 * seconds / step, 0.25, 2.0);
-        // Each step rasterises the mesh: many small ones would do little else.
-        const int fewest = (height + kMostSteps - 1) / kMostSteps;
-        state.rows_at_once = std::clamp(int(std::lround(state.rows_at_once * ratio)), fewest, height);
-        if (spent + step > seconds) return;
+        after = seconds_of(begin);
+        if (!judges) state.work_seconds = std::max((after - before) / work, 0.8 * state.work_seconds);
     }
 }
 
@@ -307,6 +328,22 @@ Image Reference::inner_pixels() const {
             set_texel(mask, x, size.y - 1 - y, 0, inside ? 1.0f : 0.0f);
         }
     return mask;
+}
+
+ReferenceEstimates Reference::estimates() const {
+    const State& state = *state_;
+    const std::size_t pixels = state.counts.size() / 2;
+    const std::vector<float> values = gl::read_replicates(state.target);
+    std::vector<float> samples(pixels);
+    ReferenceEstimates known;
+    known.mean.resize(pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        samples[i] = state.counts[2 * i];
+        for (int k = 0; k < kReplicates; ++k) known.mean[i] += values[std::size_t(k) * pixels + i];
+        known.mean[i] /= samples[i] * kWeightOfOne;
+    }
+    known.half_width = half_widths_of(values, kReplicates, samples);
+    return known;
 }
 
 TargetHandle draw_reference(Renderer& renderer, const Scene& scene, glm::ivec2 size_px,

@@ -8,10 +8,11 @@
 // occlusion map scales the light of the environment, while emission is added as it is.
 //
 // How: eight replicates grow side by side along runs of an Owen-scrambled Sobol sequence, each an unbiased
-// estimate; their scatter gives the confidence interval. Same scene, same options, same bytes. With a
-// tolerance, pixels rest whose whole neighbourhood is known well enough, at first to a few percent, in the
-// end to the tolerance: the few that need many points get them. Without one all pixels have the same number
-// of points.
+// estimate; their scatter gives the confidence interval. Each slice of a few points sees all pixels at one
+// place of their area; what a pixel reflects of the light's cells, by which it draws from them, is found once
+// for its middle. Same scene, same options, same bytes. With a tolerance, pixels rest whose whole
+// neighbourhood is known well enough, at first to a few percent, in the end to the tolerance: the few that
+// need many points get them. Without one all pixels have the same number of points.
 #pragma once
 
 #include "renderer/core/confidence.h"
@@ -21,6 +22,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace patina {
 
@@ -38,6 +40,13 @@ struct ReferenceProgress {
     std::optional<ConfidenceInterval> confidence;
     bool converged = false;  ///< within the tolerance
     bool done = false;       ///< converged or at the limit
+};
+
+/// What is known of each pixel, bottom row first.
+struct ReferenceEstimates {
+    std::vector<float>
+        mean;  ///< of the three channels; of the mesh alone, whose share of the pixel scales it
+    std::vector<float> half_width;  ///< of its 95 % interval, as ConfidenceInterval's; negative: no mesh
 };
 
 class Reference {
@@ -70,6 +79,8 @@ public:
     void write(RenderTarget& target) const;
     /// 1 where the mesh covers a pixel and all around it, else 0: 1 channel, U8, row 0 at the top.
     Image inner_pixels() const;
+    /// Precondition: judged, as it is once it is done.
+    ReferenceEstimates estimates() const;
 
 private:
     struct State;

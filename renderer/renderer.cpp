@@ -232,6 +232,11 @@ void Renderer::draw_reference(const Scene& scene, ReferenceTarget& target, const
     state_->draw_reference(shown, scene.environment ? *scene.environment : *state_->darkness, target, slice);
 }
 
+void Renderer::draw_reference_cells(const Scene& scene, ReferenceTarget& target) {
+    const gl::KeepDrawState keep;
+    state_->draw_reference_cells(scene, scene.environment ? *scene.environment : *state_->darkness, target);
+}
+
 void Renderer::show(const View& view, const RenderTarget& target) {
     const gl::KeepDrawState keep;
     set_switches();

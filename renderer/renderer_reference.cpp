@@ -7,8 +7,8 @@
 
 namespace patina {
 
-void Renderer::State::draw_reference(const Scene& scene, const GpuEnvironment& environment,
-                                     ReferenceTarget& target, const ReferenceSlice& slice) {
+Features Renderer::State::begin_reference(const Scene& scene, const GpuEnvironment& environment,
+                                          ReferenceTarget& target, const ReferenceSlice& slice) {
     View view = scene.view;
     view.debug = DebugView::Final;
     const Features features = reference_features(features_for(scene, environment));
@@ -22,20 +22,36 @@ void Renderer::State::draw_reference(const Scene& scene, const GpuEnvironment& e
         rasterise(scene, frame, features & kMaps);
     else
         upload_block(frame_rows, gl::kFrameSlot, frame);
-    gl::begin_reference_slice(target, slice.replicate, slice.weight);
     upload_block(material_rows, gl::kMaterialSlot, make_material_block(scene.material, features, exposure));
     bind_light(environment);
+    return features;
+}
+
+void Renderer::State::draw_reference_cells(const Scene& scene, const GpuEnvironment& environment,
+                                           ReferenceTarget& target) {
+    const Features features = begin_reference(scene, environment, target, {.rows = {0, target.size.y}});
+    gl::begin_reference_cells(target);
     if (scene.mesh) {
-        glBindBufferBase(GL_UNIFORM_BUFFER, gl::kPointSlot, target.points.name());
-        const gl::Program& program = reference(features, colored_lights(environment));
+        gl::draw_all(cells_of(features).name(), nothing.name(), {0, 0, target.size});
+        count_draw(1);
+    }
+    gl::end_reference_slice();
+}
+
+void Renderer::State::draw_reference(const Scene& scene, const GpuEnvironment& environment,
+                                     ReferenceTarget& target, const ReferenceSlice& slice) {
+    const Features features = begin_reference(scene, environment, target, slice);
+    gl::begin_reference_slice(target, slice.replicate, slice.weight);
+    if (scene.mesh) {
+        const gl::Program& program = reference(features);
         glUseProgram(program.name());
         glUniform1i(glGetUniformLocation(program.name(), "reference_points"), slice.points);
         gl::draw_all(program.name(), nothing.name(), {0, 0, target.size});
         count_draw(1);
     }
     gl::begin_reference_background();
-    if (view.background != Background::Plain) {
-        draw_background(view.background);
+    if (scene.view.background != Background::Plain) {
+        draw_background(scene.view.background);
         count_draw(1);
     }
     work.reference_points += std::uint64_t(slice.points);

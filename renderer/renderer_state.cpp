@@ -75,12 +75,6 @@ LightLayout layout_of(const GpuEnvironment& environment) {
             environment.sharpest,          environment.lights,       environment.panorama_lights};
 }
 
-/// How many lights' colours the panorama's alpha needs (light.glsl).
-std::size_t colored_lights(const GpuEnvironment& environment) {
-    if (environment.panorama_lights.empty()) return 0;
-    return environment.lights.empty() ? environment.panorama_lights.size() : environment.lights.size();
-}
-
 Features features_for(const Scene& scene, const GpuEnvironment& environment) {
     std::bitset<kMapSlots> bound;
     for (std::size_t i = 0; i < scene.maps.size(); ++i) bound[i] = scene.maps[i] != nullptr;
@@ -126,13 +120,16 @@ const gl::Program& Renderer::State::surface(Features features) {
     return program;
 }
 
-const gl::Program& Renderer::State::reference(Features features, std::size_t lights) {
-    const int kind = int(std::min<std::size_t>(lights, 2));
-    gl::Program& program = references[{features, kind}];
-    if (program) return program;
-    std::vector<std::string> defines = stored_defines(features);
-    defines.push_back("PANORAMA_LIGHTS=" + std::to_string(kind));
-    program = compiled("display.vert.glsl", "reference.frag.glsl", defines);
+const gl::Program& Renderer::State::reference(Features features) {
+    gl::Program& program = references[features];
+    if (!program) program = compiled("display.vert.glsl", "reference.frag.glsl", stored_defines(features));
+    return program;
+}
+
+const gl::Program& Renderer::State::cells_of(Features features) {
+    gl::Program& program = reference_cells[features];
+    if (!program)
+        program = compiled("display.vert.glsl", "reference_cells.frag.glsl", stored_defines(features));
     return program;
 }
 

@@ -24,8 +24,6 @@ gl::Texture make_brdf_texture();
 gl::Texture make_lobe_texture();
 EnvironmentHandle make_darkness();
 LightLayout layout_of(const GpuEnvironment& environment);
-/// How many lights' colours the panorama's alpha needs (light.glsl).
-std::size_t colored_lights(const GpuEnvironment& environment);
 Features features_for(const Scene& scene, const GpuEnvironment& environment);
 /// As every pass over a mesh needs them.
 void set_switches();
@@ -62,7 +60,7 @@ struct Renderer::State {
     WorkLedger work;
     ProgramStore programs;
     std::map<Features, gl::Program> surfaces;
-    std::map<std::pair<Features, int>, gl::Program> references;  ///< by lights: 0, 1, more
+    std::map<Features, gl::Program> references, reference_cells;
     std::map<std::pair<Features, int>, gl::Program> rivals;      ///< by samples
     std::array<gl::Program, 4> backgrounds;                      ///< sharp, blurred; the same of stored rays
     std::map<std::tuple<int, int, bool>, gl::Program> displays;  ///< by samples, tone mapper, stored
@@ -81,7 +79,8 @@ struct Renderer::State {
     gl::Program compiled(const char* vertex, const char* fragment, const std::vector<std::string>& defines);
     void count_draw(std::uint64_t triangles, std::uint64_t calls = 1);
     const gl::Program& surface(Features features);
-    const gl::Program& reference(Features features, std::size_t lights);
+    const gl::Program& reference(Features features);
+    const gl::Program& cells_of(Features features);
     const gl::Program& rival(Features features, int samples);
     const gl::Program& background(Background background, bool stored = false);
     const gl::Program& display(int samples, Tonemap tonemap, bool stored);
@@ -99,6 +98,10 @@ struct Renderer::State {
     void draw_display(const View& view, const RenderTarget& target);
 
     // renderer_reference.cpp
+    /// The slice's surface, and what its shading reads but for the target's own.
+    Features begin_reference(const Scene& scene, const GpuEnvironment& environment, ReferenceTarget& target,
+                             const ReferenceSlice& slice);
+    void draw_reference_cells(const Scene& scene, const GpuEnvironment& environment, ReferenceTarget& target);
     void draw_reference(const Scene& scene, const GpuEnvironment& environment, ReferenceTarget& target,
                         const ReferenceSlice& slice);
 

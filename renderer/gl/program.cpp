@@ -138,7 +138,10 @@ void bind_interface(GLuint program) {
         {"stored_fragments", kFragmentPlacesUnit},
         {"reference_counts", kFragmentPlacesUnit},
         {"light_points", kLightPointsUnit},
-        {"light_cells", kLightCellsUnit},
+        {"light_texels", kLightTexelsUnit},
+        {"slice_points", kSlicePointsUnit},
+        {"first_reflected_cells", kFirstReflectedCellsUnit},
+        {"last_reflected_cells", kLastReflectedCellsUnit},
         {"fragment_of_pixel", kFragmentOfPixelUnit},
         {"fragments_of_samples", kFragmentsOfSamplesUnit},
     };
@@ -151,7 +154,7 @@ void bind_interface(GLuint program) {
     }
     glUseProgram(GLuint(previous));
     static constexpr std::pair<const char*, GLuint> uniform_blocks[] = {
-        {"FrameBlock", kFrameSlot}, {"MaterialBlock", kMaterialSlot}, {"PointBlock", kPointSlot}};
+        {"FrameBlock", kFrameSlot}, {"MaterialBlock", kMaterialSlot}, {"CellBlock", kCellSlot}};
     for (const auto& [name, slot] : uniform_blocks) {
         const GLuint index = glGetUniformBlockIndex(program, name);
         if (index != GL_INVALID_INDEX) glUniformBlockBinding(program, index, slot);

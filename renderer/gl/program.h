@@ -54,14 +54,17 @@ inline constexpr GLuint kFirstMapUnit = 4;  ///< six of them, in MapSlot's order
 inline constexpr GLuint kLobesUnit = 10;
 inline constexpr GLuint kFirstStoredUnit = 4;  ///< six of them, while no map is bound
 inline constexpr GLuint kFragmentPlacesUnit = 11;
-inline constexpr GLuint kLightPointsUnit = 12;        ///< of the reference
-inline constexpr GLuint kLightCellsUnit = 13;         ///< likewise
-inline constexpr GLuint kFragmentOfPixelUnit = 4;     ///< beside the picture
-inline constexpr GLuint kFragmentsOfSamplesUnit = 5;  ///< likewise
-inline constexpr GLuint kPictureUnit = 0;             ///< what the display pass reads
-inline constexpr GLuint kFrameSlot = 0;               ///< uniform buffer binding of FrameBlock
-inline constexpr GLuint kMaterialSlot = 1;            ///< and of MaterialBlock
-inline constexpr GLuint kPointSlot = 2;               ///< and of PointBlock
+inline constexpr GLuint kLightPointsUnit = 12;  ///< of the reference, as those that follow
+inline constexpr GLuint kLightTexelsUnit = 13;
+inline constexpr GLuint kSlicePointsUnit = 14;
+inline constexpr GLuint kFirstReflectedCellsUnit = kLevelsUnit;     ///< which it does not read
+inline constexpr GLuint kLastReflectedCellsUnit = kIrradianceUnit;  ///< likewise
+inline constexpr GLuint kFragmentOfPixelUnit = 4;                   ///< beside the picture
+inline constexpr GLuint kFragmentsOfSamplesUnit = 5;                ///< likewise
+inline constexpr GLuint kPictureUnit = 0;                           ///< what the display pass reads
+inline constexpr GLuint kFrameSlot = 0;                             ///< uniform buffer binding of FrameBlock
+inline constexpr GLuint kMaterialSlot = 1;                          ///< and of MaterialBlock
+inline constexpr GLuint kCellSlot = 2;                              ///< and of CellBlock
 
 /// To be read through the texture's own parameters. Leaves the unit active.
 void bind_texture(GLuint unit, GLenum kind, const Texture& texture);

@@ -8,6 +8,7 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -27,7 +28,7 @@ glm::vec3 light_color(const std::vector<ExtractedLight>& lights, glm::vec3 direc
 void no_filter(GLenum kind) {
     for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
         glTexParameteri(kind, filter, GL_NEAREST);
-    glTexParameteri(kind, GL_TEXTURE_MAX_LEVEL, 0);
+    if (kind != GL_TEXTURE_RECTANGLE) glTexParameteri(kind, GL_TEXTURE_MAX_LEVEL, 0);
 }
 
 void require_complete(glm::ivec2 size) {
@@ -57,6 +58,13 @@ void make_textures(ReferenceTarget& target) {
     glBindTexture(GL_TEXTURE_2D, target.counts.name());
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32F, size.x, size.y, 0, GL_RG, GL_FLOAT, nullptr);
     no_filter(GL_TEXTURE_2D);
+    for (Texture& words : target.reflected_cells) {
+        words = Texture::make();
+        glBindTexture(GL_TEXTURE_RECTANGLE, words.name());
+        glTexImage2D(GL_TEXTURE_RECTANGLE, 0, GL_RGBA32UI, size.x, size.y, 0, GL_RGBA_INTEGER,
+                     GL_UNSIGNED_INT, nullptr);
+        no_filter(GL_TEXTURE_RECTANGLE);
+    }
 }
 
 void make_framebuffers(ReferenceTarget& target) {
@@ -69,6 +77,14 @@ void make_framebuffers(ReferenceTarget& target) {
         glDrawBuffers(2, both);
         require_complete(target.size);
     }
+    target.cells_framebuffer = Framebuffer::make();
+    glBindFramebuffer(GL_FRAMEBUFFER, target.cells_framebuffer.name());
+    for (GLuint i = 0; i < 2; ++i)
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + i, GL_TEXTURE_RECTANGLE,
+                               target.reflected_cells[i].name(), 0);
+    const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    glDrawBuffers(2, both);
+    require_complete(target.size);
 }
 
 }  // namespace
@@ -108,27 +124,51 @@ void set_reference_counts(ReferenceTarget& target, const std::vector<float>& cou
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, target.size.x, target.size.y, GL_RG, GL_FLOAT, counts.data());
 }
 
+namespace {
+
+blocks::CellBlock cell_block(const LightSampler& light) {
+    const PanoramaTexels& texels = light.texels();
+    const std::vector<LightCell>& cells = light.cells();
+    const double all = light.total() > 0.0 ? light.total() : 1.0;
+    blocks::CellBlock block{.light_layout = {cells.size(), 1.0 / all, texels.width, texels.height},
+                            .cell_rows = {}};
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        block.cell_rows[2 * k] = glm::vec4(glm::dvec4(cells[k].direction, cells[k].spread));
+        block.cell_rows[2 * k + 1].x = float(std::sqrt(cells[k].spread));
+    }
+    return block;
+}
+
+void fill(BufferTexture& row, const std::vector<glm::vec4>& texels) {
+    const bool is_new = !row.buffer;
+    if (is_new) row = {Buffer::make(), Texture::make()};
+    glBindBuffer(GL_TEXTURE_BUFFER, row.buffer.name());
+    glBufferData(GL_TEXTURE_BUFFER, GLsizeiptr(texels.size() * sizeof(glm::vec4)), texels.data(),
+                 GL_STREAM_DRAW);
+    if (!is_new) return;
+    glBindTexture(GL_TEXTURE_BUFFER, row.texture.name());
+    glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, row.buffer.name());
+}
+
+}  // namespace
+
 void set_reference_light(ReferenceTarget& target, const LightSampler& light) {
     const KeepTextureBindings keep;
     const PanoramaTexels& texels = light.texels();
-    target.light_cells = Texture::make();
-    glBindTexture(GL_TEXTURE_2D, target.light_cells.name());
-    no_filter(GL_TEXTURE_2D);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, texels.width, texels.height, 0, GL_RED, GL_UNSIGNED_BYTE,
-                 light.cell_of_texel().data());
+    target.light_texels = Texture::make();
+    glBindTexture(GL_TEXTURE_RECTANGLE, target.light_texels.name());
+    no_filter(GL_TEXTURE_RECTANGLE);
+    glTexImage2D(GL_TEXTURE_RECTANGLE, 0, GL_RGBA32F, texels.width, texels.height, 0, GL_RGBA, GL_FLOAT,
+                 light.radiance_and_cell().data());
+    if (!target.cells) target.cells = Buffer::make();
+    const blocks::CellBlock block = cell_block(light);
+    glBindBuffer(GL_UNIFORM_BUFFER, target.cells.name());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STATIC_DRAW);
 }
 
-void set_reference_points(ReferenceTarget& target, const blocks::PointBlock& points,
-                          const LightPoints& light) {
-    const KeepTextureBindings keep;
-    if (!target.points) target.points = Buffer::make();
-    glBindBuffer(GL_UNIFORM_BUFFER, target.points.name());
-    glBufferData(GL_UNIFORM_BUFFER, sizeof points, &points, GL_STREAM_DRAW);
-    if (!target.light_points) target.light_points = Texture::make();
-    glBindTexture(GL_TEXTURE_2D, target.light_points.name());
-    no_filter(GL_TEXTURE_2D);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, light.cells, int(light.rows.size()) / light.cells, 0, GL_RGBA,
-                 GL_FLOAT, light.rows.data());
+void set_reference_points(ReferenceTarget& target, const SlicePoints& points) {
+    fill(target.slice_points, points.reflection);
+    fill(target.light_points, points.light);
 }
 
 void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps, glm::ivec2 rows) {
@@ -151,11 +191,22 @@ void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps, glm::ive
     glDepthFunc(GL_LEQUAL);
 }
 
+void begin_reference_cells(const ReferenceTarget& target) {
+    glBindFramebuffer(GL_FRAMEBUFFER, target.cells_framebuffer.name());
+    target.surface.bind_layers();
+    glBindBufferBase(GL_UNIFORM_BUFFER, kCellSlot, target.cells.name());
+    glDisable(GL_DEPTH_TEST);
+}
+
 void begin_reference_slice(const ReferenceTarget& target, int replicate, float weight) {
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffers[replicate].name());
     target.surface.bind_layers();
-    bind_texture(kLightPointsUnit, GL_TEXTURE_2D, target.light_points);
-    bind_texture(kLightCellsUnit, GL_TEXTURE_2D, target.light_cells);
+    bind_texture(kLightTexelsUnit, GL_TEXTURE_RECTANGLE, target.light_texels);
+    bind_texture(kSlicePointsUnit, GL_TEXTURE_BUFFER, target.slice_points.texture);
+    bind_texture(kLightPointsUnit, GL_TEXTURE_BUFFER, target.light_points.texture);
+    bind_texture(kFirstReflectedCellsUnit, GL_TEXTURE_RECTANGLE, target.reflected_cells[0]);
+    bind_texture(kLastReflectedCellsUnit, GL_TEXTURE_RECTANGLE, target.reflected_cells[1]);
+    glBindBufferBase(GL_UNIFORM_BUFFER, kCellSlot, target.cells.name());
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);

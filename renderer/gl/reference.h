@@ -14,6 +14,12 @@
 
 namespace patina {
 
+/// A row of texels of which shaders read one.
+struct BufferTexture {
+    gl::Buffer buffer;
+    gl::Texture texture;
+};
+
 /// Replicates are independent estimates of the picture; their scatter tells how well it is known.
 struct ReferenceTarget {
     static constexpr int kReplicates = 8;
@@ -21,10 +27,13 @@ struct ReferenceTarget {
     gl::Texture sum;           ///< of all replicates, slices by their weights; alpha: coverage likewise
     gl::Texture replicates;    ///< one layer each: likewise, the mean of the three channels, the mesh only
     gl::Texture counts;        ///< two a pixel: points before the counts were set; 1: it gathers, 0: it rests
-    gl::Buffer points;         ///< blocks.h's PointBlock
-    gl::Texture light_points;  ///< a column a cell, two rows a point: direction and density; radiance
-    gl::Texture light_cells;   ///< of every texel of the panorama, which cell it lies in
-    gl::SurfaceScratch surface;                             ///< what the slice's picture shows
+    gl::Buffer cells;          ///< blocks.h's CellBlock
+    gl::Texture light_texels;  ///< of the panorama: radiance, cell; a rectangle
+    BufferTexture slice_points;  ///< as SlicePoints
+    BufferTexture light_points;
+    std::array<gl::Texture, 2> reflected_cells;  ///< as reference_cells.frag.glsl leaves them; rectangles
+    gl::Framebuffer cells_framebuffer;           ///< of these
+    gl::SurfaceScratch surface;                  ///< what the slice's picture shows
     std::array<gl::Framebuffer, kReplicates> framebuffers;  ///< sum and one replicate
     gl::Program mean, resting;
     gl::VertexArray nothing;
@@ -41,19 +50,19 @@ void clear_reference(ReferenceTarget& target);
 void set_reference_counts(ReferenceTarget& target, const std::vector<float>& counts);
 /// The light of the slices that follow.
 void set_reference_light(ReferenceTarget& target, const LightSampler& light);
-/// The points of a slice that draw from the light: in each cell one a point, row by row as
-/// ReferenceTarget::light_points.
-struct LightPoints {
-    int cells = 0;
-    std::vector<glm::vec4> rows;
+/// What all pixels draw directions from, of the slices that follow.
+struct SlicePoints {
+    std::vector<glm::vec4> reflection;  ///< shares of the cells in all light, four a texel; then one a point:
+                                        ///< cos φ, sin φ, u; choice of lobe and of cell
+    std::vector<glm::vec4> light;       ///< of a point, two a cell: direction; radiance
 };
-/// The points of the slices that follow.
-void set_reference_points(ReferenceTarget& target, const blocks::PointBlock& points,
-                          const LightPoints& light);
+void set_reference_points(ReferenceTarget& target, const SlicePoints& points);
 
 /// Between begin and end the mesh's material is drawn into target.surface. rows: to which all is kept until
 /// the slice ends; from, to.
 void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps, glm::ivec2 rows);
+/// After the surface, what is drawn finds out what each pixel reflects of the light's cells.
+void begin_reference_cells(const ReferenceTarget& target);
 /// Between begin and end what is drawn is added to the sum, weight (0…1) times: the surface, in a replicate
 /// too; then what is behind it, at its depth.
 void begin_reference_slice(const ReferenceTarget& target, int replicate, float weight);

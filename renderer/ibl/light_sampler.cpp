@@ -27,7 +27,7 @@ Place place_of(std::span<const Number> sums, double u) {
 
 LightSampler::LightSampler(PanoramaTexels texels)
     : texels_(std::move(texels)), cells_(divide_light(texels_, kMostCells)) {
-    cell_of_texel_.resize(texels_.radiance.size());
+    radiance_and_cell_.resize(texels_.radiance.size());
     within_.resize(texels_.radiance.size());
     rows_.resize(cells_.size());
     for (std::size_t k = 0; k < cells_.size(); ++k) {
@@ -40,7 +40,7 @@ LightSampler::LightSampler(PanoramaTexels texels)
             for (int x = cell.left; x < cell.right; ++x) {
                 const std::size_t i = std::size_t(y) * texels_.width + x;
                 within_[i] = float(sum += mean_channel(texels_.radiance[i]));
-                cell_of_texel_[i] = std::uint8_t(k);
+                radiance_and_cell_[i] = {texels_.radiance[i], float(k)};
             }
             rows_[k].push_back(light += sum * texel);
             areas.push_back(area += texel * (cell.right - cell.left));

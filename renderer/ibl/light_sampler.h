@@ -6,8 +6,8 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
-#include <cstdint>
 #include <vector>
 
 namespace patina {
@@ -32,15 +32,15 @@ public:
     /// ∫ mean channel dω.
     double total() const { return total_; }
     const PanoramaTexels& texels() const { return texels_; }
+    /// Of every texel, the number of its cell last.
+    const std::vector<glm::vec4>& radiance_and_cell() const { return radiance_and_cell_; }
     /// 1 … kMostCells that cover the panorama.
     const std::vector<LightCell>& cells() const { return cells_; }
-    /// Of every texel, which cell it lies in.
-    const std::vector<std::uint8_t>& cell_of_texel() const { return cell_of_texel_; }
 
 private:
     PanoramaTexels texels_;
     std::vector<LightCell> cells_;
-    std::vector<std::uint8_t> cell_of_texel_;
+    std::vector<glm::vec4> radiance_and_cell_;
     std::vector<std::vector<double>> rows_;  ///< of each cell: light in its rows above and in this one; where
                                              ///< it has none, solid angle
     std::vector<float> within_;  ///< sum of mean channels in a texel's row of its cell, up to and with it

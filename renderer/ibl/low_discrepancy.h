@@ -56,4 +56,11 @@ inline glm::dvec3 scrambled_sobol(std::uint32_t index, std::uint64_t seed) {
     return point;
 }
 
+/// The same points in an order that is shuffled, aligned runs of 2^k to aligned runs. In Sobol's own order
+/// the digits of a point say which of the sequence it is: two sequences side by side would meet in few of
+/// their combinations.
+inline glm::dvec3 shuffled_sobol(std::uint32_t index, std::uint64_t seed) {
+    return scrambled_sobol(owen_scrambled(index, mix_bits(seed)), seed);
+}
+
 }  // namespace patina

@@ -18,7 +18,6 @@ using vec4 = glm::vec4;
 // never count.
 #define PATINA_LEVEL_ROWS 8
 #define PATINA_MAX_LIGHTS 16
-#define PATINA_MOST_POINTS 256
 #define PATINA_LIGHT_CELLS 32
 
 // How the scene is seen and lit. "Scale" undoes the power of two by which a half-float texture was stored,
@@ -56,19 +55,16 @@ PATINA_BLOCK(MaterialBlock) {
     vec4 uv_offset;
 };
 
-// A slice's points of the reference: what a direction of the reflection is drawn with: cos φ, sin φ, u,
-// choice of lobe; choice of the light's cell. And the light's cells (ibl/light_cells.h): direction, spread;
-// share of all light, 1/its light or 0.
-PATINA_BLOCK(PointBlock) {
-    vec4 point_rows[2 * PATINA_MOST_POINTS];
-    vec4 cell_rows[2 * PATINA_LIGHT_CELLS];
+// The light that the reference draws from (ibl/light_cells.h).
+PATINA_BLOCK(CellBlock) {
+    vec4 light_layout;                       // cells; 1/all light; the panorama's width and height in texels
+    vec4 cell_rows[2 * PATINA_LIGHT_CELLS];  // of each: direction, spread; √spread
 };
 
 #ifdef __cplusplus
 #undef PATINA_BLOCK
 inline constexpr int kMaxLevels = 4 * PATINA_LEVEL_ROWS + 1;
 inline constexpr int kMaxLights = PATINA_MAX_LIGHTS;
-inline constexpr int kMostPoints = PATINA_MOST_POINTS;
 inline constexpr int kLightCells = PATINA_LIGHT_CELLS;
 }  // namespace patina::blocks
 #endif

@@ -188,6 +188,54 @@ TEST(Reference, gives_the_same_bytes_twice) {
     EXPECT_EQ(picture_of(scene, {40, 24}, options).bytes, picture_of(scene, {40, 24}, options).bytes);
 }
 
+/// Of the pixels of several pictures, those whose own interval holds the truth.
+double share_known_as_stated(const Scene& scene, glm::ivec2 size, int samples) {
+    const auto known = [&](int points, std::uint64_t seed) {
+        Reference reference(renderer(), size, {.max_samples = points, .tolerance = 0.0, .seed = seed});
+        reference.restart(scene);
+        reference.finish();
+        return reference.estimates();
+    };
+    const ReferenceEstimates truth = known(16384, 1000);
+    int within = 0, all = 0;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        const ReferenceEstimates found = known(samples, seed);
+        for (std::size_t i = 0; i < found.mean.size(); ++i) {
+            if (found.half_width[i] < 0.0f || !(truth.mean[i] > 0.0f)) continue;
+            within += std::abs(found.mean[i] / truth.mean[i] - 1.0f) <= found.half_width[i];
+            ++all;
+        }
+    }
+    return double(within) / all;
+}
+
+TEST(Reference, pixels_are_as_far_from_the_truth_as_it_says) {
+    Scene scene = metal_ball(0.1f);  // of flat triangles whose edges and mirrored lamps divide pixels
+    scene.environment = only_panorama(lit_room(64));
+    for (const int samples : {512, 2048}) {
+        EXPECT_GT(share_known_as_stated(scene, glm::ivec2(24), samples), 0.93) << samples;
+    }
+    scene.material.roughness.value = 0.4f;
+    EXPECT_GT(share_known_as_stated(scene, glm::ivec2(24), 512), 0.95);
+}
+
+TEST(Reference, draws_from_the_lamp_that_is_mirrored) {
+    // A dozen lamps all around, each of which dazzles a part of the ball.
+    const Environment lamps = make_panorama(
+        [](glm::vec3 d) {
+            const float turn = std::atan2(d.x, d.z) * 6.0f / float(M_PI);
+            return glm::vec3(std::abs(turn - std::round(turn)) < 0.12f && std::abs(d.y) < 0.5f ? 16.0f
+                                                                                               : 0.125f);
+        },
+        128);
+    Scene scene = metal_ball(0.25f);
+    scene.environment = only_panorama(lamps);
+    Reference reference(renderer(), glm::ivec2(24), {.max_samples = 256, .tolerance = 0.0});
+    reference.restart(scene);
+    reference.finish();
+    EXPECT_LT(reference.progress().confidence->median, 0.17);  // 0.126; drawn from all alike 0.235
+}
+
 TEST(Reference, edges_are_covered_by_their_share) {
     Scene scene = make_scene(nullptr, sphere());
     scene.material.emission.value = glm::vec3(1.0f);

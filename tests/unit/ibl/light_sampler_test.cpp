@@ -87,7 +87,8 @@ TEST(LightSampler, draws_texels_by_their_light) {
             const glm::vec2 uv = direction_to_equirect(glm::vec3(sample.direction));
             const int x = int(uv.x * 8), y = int(uv.y * 4);
             EXPECT_EQ(sample.radiance, texels.radiance[std::size_t(y) * 8 + x]);
-            EXPECT_EQ(sampler.cell_of_texel()[std::size_t(y) * 8 + x], k);
+            EXPECT_EQ(sampler.radiance_and_cell()[std::size_t(y) * 8 + x],
+                      glm::vec4(sample.radiance, float(k)));
             if (!(sampler.cells()[k].light > 0.0)) continue;
             red += sampler.cells()[k].light / sampler.total() * (sample.radiance.x > 0.0f) / count;
             area += 1.0 / sample.density / count;

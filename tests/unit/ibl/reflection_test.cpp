@@ -96,5 +96,25 @@ TEST(LowDiscrepancy, points_fill_every_elementary_interval_once) {
     }
 }
 
+TEST(LowDiscrepancy, shuffled_points_are_as_even_and_meet_all_others) {
+    for (int first = 0; first < 128; first += 64) {
+        std::set<std::pair<int, int>> cells;
+        for (int i = first; i < first + 64; ++i) {
+            const glm::dvec3 u = shuffled_sobol(std::uint32_t(i), 5);
+            cells.insert({int(u.x * 8), int(u.y * 8)});
+        }
+        EXPECT_EQ(cells.size(), 64u);
+    }
+    // Halves of two dimensions of two sequences side by side, in order and with one of them shuffled.
+    const auto together = [](auto other) {
+        double sum = 0.0;
+        for (std::uint32_t i = 0; i < 1024; ++i)
+            sum += (scrambled_sobol(i, 1).x < 0.5 ? 1.0 : -1.0) * (other(i, 2ull).x < 0.5 ? 1.0 : -1.0);
+        return std::abs(sum) / 1024;
+    };
+    EXPECT_GT(together(scrambled_sobol), 0.99) << "no need to shuffle";
+    EXPECT_LT(together(shuffled_sobol), 0.2);
+}
+
 }  // namespace
 }  // namespace patina
