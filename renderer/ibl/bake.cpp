@@ -16,7 +16,6 @@ namespace patina {
 namespace {
 
 constexpr int kLevelCount = 16;
-constexpr int kSharperLevels = 2;             ///< of those that are drawn
 constexpr float kStandardSharpest = 0.0999f;  ///< smoother levels need no more than the standard band
 constexpr int kStandardBand = 600;
 constexpr double kStrongLight = 2e4;           ///< of the mean: a light that reaches beyond the standard band
@@ -178,25 +177,26 @@ bool finish_levels(const Sources& sources, const BakeSettings& settings, const B
     return !control.stop.stop_requested();
 }
 
-/// Geometric, from step first of those from 0.1 to 1.
-std::vector<float> levels_from(int first) {
-    std::vector<float> levels;
-    levels.reserve(std::size_t(kLevelCount - first));
-    for (int i = first; i < kLevelCount; ++i)
-        levels.push_back(float(std::pow(10.0, double(i) / (kLevelCount - 1) - 1.0)));
-    levels.back() = 1.0f;
-    return levels;
-}
-
 }  // namespace
 
 void serial_for(int count, const std::function<void(int)>& body) {
     for (int i = 0; i < count; ++i) body(i);
 }
 
-std::vector<float> standard_roughness_levels() { return levels_from(0); }
+std::vector<float> standard_roughness_levels() {
+    std::vector<float> levels;
+    levels.reserve(kLevelCount);
+    for (int i = 0; i < kLevelCount; ++i)
+        levels.push_back(float(std::pow(10.0, double(i) / (kLevelCount - 1) - 1.0)));
+    levels.back() = 1.0f;
+    return levels;
+}
 
-std::vector<float> drawn_roughness_levels() { return levels_from(-kSharperLevels); }
+std::vector<float> drawn_roughness_levels() {
+    std::vector<float> levels = standard_roughness_levels();
+    levels.insert(levels.begin(), {kSharpestLevel, std::sqrt(kSharpestLevel * levels.front())});
+    return levels;
+}
 
 std::optional<BakedEnvironment> bake_environment(const Environment& environment, const BakeSettings& settings,
                                                  const BakeControl& control) {

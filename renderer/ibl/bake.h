@@ -65,10 +65,10 @@ struct BakedEnvironment {
 
 /// Sixteen roughness values, geometric from 0.1 to 1: what is baked where nobody asks for others.
 std::vector<float> standard_roughness_levels();
-/// The roughness values the renderer interpolates between: the standard ones and, in the same steps, two
-/// sharper ones down to kSharpestLevel, because fitted lobes are narrower than their surface is rough.
+/// The roughness values the renderer interpolates between: the standard ones and, in like steps, two sharper
+/// ones down to kSharpestLevel, because fitted lobes are narrower than their surface is rough.
 std::vector<float> drawn_roughness_levels();
-inline constexpr float kSharpestLevel = 0.0735642254f;  ///< 10^(−17/15)
+inline constexpr float kSharpestLevel = 0.075f;  ///< about the last that the transform does whole
 
 /// Part of the cache key: raised whenever bake_environment's output changes.
 inline constexpr int kBakerVersion = 7;

@@ -14,6 +14,10 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kGolden = 0.6180339887498949;
 
+/// Half of a lobe's samples are drawn from one so much wider: its own leave the tails, where a lamp far from
+/// the lobe's middle is all the light there is, to a few huge solid angles.
+constexpr double kTailWidth = 5.0;
+
 double pow5(double x) { return x * x * x * x * x; }
 
 /// Smith's Λ: G₁ = 1/(1 + Λ).
@@ -21,6 +25,30 @@ double smith_lambda(double cosine, double alpha) {
     const double c2 = cosine * cosine;
     return 0.5 * (std::sqrt(1.0 + alpha * alpha * (1.0 - c2) / c2) - 1.0);
 }
+
+/// Visible normals of one roughness, seen from V = (sine, 0, NoV), by spherical caps.
+struct Strategy {
+    double NoV, alpha, sine, lambda;
+    glm::dvec2 stretched;  ///< V's x and z in the space where the microsurface is a sphere
+
+    Strategy(double cosine, double width)
+        : NoV(cosine),
+          alpha(width),
+          sine(std::sqrt(1.0 - cosine * cosine)),
+          lambda(smith_lambda(cosine, width)),
+          stretched(glm::normalize(glm::dvec2(width * sine, cosine))) {}
+    glm::dvec3 half_vector(double u, double azimuth) const {
+        const double z = (1.0 - u) * (1.0 + stretched.y) - stretched.y;
+        const double s = std::sqrt(std::max(0.0, 1.0 - z * z));
+        return glm::normalize(glm::dvec3(alpha * (s * std::cos(azimuth) + stretched.x),
+                                         alpha * s * std::sin(azimuth), std::max(1e-9, z + stretched.y)));
+    }
+    /// Per solid angle of the reflected direction.
+    double density(const glm::dvec3& H) const {
+        const double spread = H.x * H.x + H.y * H.y + alpha * alpha * H.z * H.z;
+        return alpha * alpha / (kPi * spread * spread) / ((1.0 + lambda) * 4.0 * NoV);
+    }
+};
 
 glm::vec3 any_tangent(glm::vec3 N) {
     const glm::vec3 axis = std::abs(N.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
@@ -52,25 +80,17 @@ std::vector<Frame> spread_frames(int count) {
 
 Lobe sample_lobe(double NoV, double alpha, int count) {
     Lobe lobe;
-    const double sine = std::sqrt(1.0 - NoV * NoV);
-    const double stretch = std::sqrt(alpha * alpha * sine * sine + NoV * NoV);
-    const double vx = alpha * sine / stretch, vz = NoV / stretch;
-    const double lambda_v = smith_lambda(NoV, alpha);
+    const Strategy narrow(NoV, alpha), wide(NoV, std::min(1.0, kTailWidth * alpha));
     for (int i = 0; i < count; ++i) {
         const double u = (i + 0.5) / count, azimuth = 2.0 * kPi * std::fmod(i * kGolden + 0.5, 1.0);
-        const double z = (1.0 - u) * (1.0 + vz) - vz, s = std::sqrt(std::max(0.0, 1.0 - z * z));
-        glm::dvec3 H(alpha * (s * std::cos(azimuth) + vx), alpha * s * std::sin(azimuth),
-                     std::max(1e-9, z + vz));
-        H = glm::normalize(H);
-        const double VoH = H.x * sine + H.z * NoV;
-        const glm::dvec3 L(2.0 * VoH * H.x - sine, 2.0 * VoH * H.y, 2.0 * VoH * H.z - NoV);
+        const glm::dvec3 H = (i % 2 ? wide : narrow).half_vector(u, azimuth);
+        const double VoH = H.x * narrow.sine + H.z * NoV;
+        const glm::dvec3 L(2.0 * VoH * H.x - narrow.sine, 2.0 * VoH * H.y, 2.0 * VoH * H.z - NoV);
         if (L.z <= 0.0 || VoH <= 0.0) continue;
-        const double spread = H.x * H.x + H.y * H.y + alpha * alpha * H.z * H.z;
-        const double D = alpha * alpha / (kPi * spread * spread);
-        const double density = D / ((1.0 + lambda_v) * 4.0 * NoV);
-        const double weight = (1.0 + lambda_v) / (1.0 + lambda_v + smith_lambda(L.z, alpha)) / count;
-        const double fresnel = weight * pow5(1.0 - VoH);
-        lobe.samples.push_back({glm::vec3(L), float(weight), float(fresnel), 1.0 / (count * density)});
+        const double solid_angle = 1.0 / (count * 0.5 * (narrow.density(H) + wide.density(H)));
+        const Reflection r = reflection(NoV, L, alpha * alpha);
+        const double weight = r.plain * solid_angle, fresnel = r.fresnel * solid_angle;
+        lobe.samples.push_back({glm::vec3(L), float(weight), float(fresnel), solid_angle});
         lobe.Ess += weight;
         lobe.B += fresnel;
     }

@@ -27,7 +27,8 @@ struct LobeSample {
     float fresnel_weight = 0.0f;
     double solid_angle = 0.0;
 };
-/// Visible normals by spherical caps (Dupuy & Benyoub 2023) on a golden lattice; weights sum to Ess and B.
+/// Visible normals by spherical caps (Dupuy & Benyoub 2023) on a golden lattice, half of them of the lobe and
+/// half of a wider one (balance heuristic: Veach & Guibas 1995); weights sum to Ess and B.
 struct Lobe {
     std::vector<LobeSample> samples;
     double Ess = 0.0;
