@@ -1,4 +1,6 @@
 // The mean of all that was gathered.
+#include "software.glsl"
+
 uniform sampler2D picture;
 uniform sampler2D reference_counts;   // points a pixel had before; whether it gathers
 uniform vec3 reference_weight;        // points since; what one weighs; the largest number the target holds
@@ -7,6 +9,7 @@ uniform vec2 reference_rows;          // below which row there are how many more
 out vec4 picture_color;
 
 void main() {
+    spare_whole_tiles();
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec2 counts = texelFetch(reference_counts, at, 0).rg;
     float since = reference_weight.x + (gl_FragCoord.y < reference_rows.x ? reference_rows.y : 0.0);
