@@ -122,6 +122,20 @@ void find_mesh_picture(const Registry& registry, const fs::path& folder, const s
     found.mesh = std::make_shared<PreparedMesh>(prepare_mesh(mesh));
 }
 
+void find_picture(const Registry& registry, const fs::path& file, Found& found) {
+    std::optional<SmallPicture> small;
+    import_image_rows(registry, file,
+                      {.begin =
+                           [&](const Image& shape) {
+                               small.emplace(kThumbnailPx, shape.type == PixelType::F32);
+                               small->begin(shape);
+                           },
+                       .row = [&](const std::byte* row) { small->row(row); }});
+    ++found.work.maps_decoded;
+    found.work.map_bytes_decoded += small->bytes_read();
+    found.picture = small->take();
+}
+
 void write_to_cache(const fs::path& file, const Image& picture) {
     std::error_code ignored;
     fs::create_directories(file.parent_path(), ignored);
@@ -190,20 +204,9 @@ void Thumbnails::State::start(const Key& key) {
             case Kind::Mesh:
                 find_mesh_picture(registry, options.folder, id, *found);
                 break;
-            case Kind::Picture: {
-                std::optional<SmallPicture> small;
-                import_image_rows(registry, utf8_to_path(id),
-                                  {.begin =
-                                       [&](const Image& shape) {
-                                           small.emplace(kThumbnailPx, shape.type == PixelType::F32);
-                                           small->begin(shape);
-                                       },
-                                   .row = [&](const std::byte* row) { small->row(row); }});
-                ++found->work.maps_decoded;
-                found->work.map_bytes_decoded += small->bytes_read();
-                found->picture = small->take();
+            case Kind::Picture:
+                find_picture(registry, utf8_to_path(id), *found);
                 break;
-            }
         }
         std::error_code ignored;
         if (found->picture && !found->cache_file.empty() && !fs::exists(found->cache_file, ignored))

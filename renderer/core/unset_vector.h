@@ -13,7 +13,7 @@ template <class T>
 struct LeaveUnset : std::allocator<T> {
     static_assert(std::is_trivially_default_constructible_v<T>);
     template <class U>
-    struct rebind {
+    struct rebind {  // NOLINT(readability-identifier-naming): the standard library's name
         using other = LeaveUnset<U>;
     };
     template <class U>
