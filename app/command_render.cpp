@@ -88,14 +88,13 @@ void render_shots(const RenderArgs& args, const Registry& registry, const fs::pa
     Scene scene = studio.loader.scene(args.presets.front(), args.scene);
     scene.environment =
         studio.loader.environment(args.scene.environments.front(), studio.loader.needed_light(scene));
-    const TargetHandle target = studio.renderer.make_target(args.scene.size_px);
     for (std::size_t i = 0; i < shots.size(); ++i) {
         if (args.turntable > 0) studio.progress.show("drawing", float(i) / float(shots.size()));
         scene.camera = shots[i].scene.camera;
         scene.view = shots[i].scene.view;
         const bool same_surface = args.turn_light && shots.size() > 1;
-        const Image image = studio.picture(scene, *target, output.extension() == ".exr",
-                                           same_surface ? Reuse::Standing : Reuse::None);
+        const Image image = studio.picture(scene, args.scene.size_px, output.extension() == ".exr",
+                                           same_surface ? Reuse::Standing : Reuse::Within);
         exporter.save(shots[i].file, image,
                       described_with(scene.material.name + " under " + args.scene.environments.front(),
                                      shots[i].made_from));
@@ -169,10 +168,7 @@ int run_compare(const RenderArgs& args, const Registry& registry) {
                 radiance ? PixelType::F32 : PixelType::U8);
     for (std::size_t x = 0; x < args.scene.environments.size(); ++x)
         sheet.set_column_title(int(x), environment_title(registry, args.scene.environments[x]));
-    const TargetHandle target = studio.renderer.make_target(args.scene.size_px);
-    // A kept surface takes programs of its own: four columns cost more with it than without (`bench skip`).
-    constexpr std::size_t columns_that_pay = 6;
-    const Reuse reuse = args.scene.environments.size() >= columns_that_pay ? Reuse::Standing : Reuse::None;
+    const Reuse reuse = args.scene.environments.size() > 1 ? Reuse::Standing : Reuse::Within;
     NeededLight needed;  // of the whole sheet, so that each light is baked once
     for (const std::string& preset : args.presets)
         needed = combined(needed, studio.loader.needed_light(preset, args.scene));
@@ -181,7 +177,7 @@ int run_compare(const RenderArgs& args, const Registry& registry) {
         sheet.set_row_title(int(y), scene.material.name);
         for (std::size_t x = 0; x < args.scene.environments.size(); ++x) {
             scene.environment = studio.loader.environment(args.scene.environments[x], needed);
-            sheet.set_cell(int(x), int(y), studio.picture(scene, *target, radiance, reuse));
+            sheet.set_cell(int(x), int(y), studio.picture(scene, args.scene.size_px, radiance, reuse));
         }
     }
     studio.progress.clear();

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace patina {
 
@@ -60,13 +62,43 @@ TargetHandle Studio::draw_reference(const Scene& scene, glm::ivec2 size_px) {
     return target;
 }
 
-Image Studio::picture(const Scene& scene, RenderTarget& target, bool radiance, Reuse reuse) {
-    if (is_reference(scene.view)) {
-        const TargetHandle reference = draw_reference(scene, Renderer::size_px(target));
-        return radiance ? renderer.read_radiance(*reference) : renderer.read_display(*reference);
-    }
-    renderer.draw(scene, target, reuse);
+Image Studio::read(const RenderTarget& target, bool radiance) {
     return radiance ? renderer.read_radiance(target) : renderer.read_display(target);
+}
+
+/// The last one, where it fits.
+RenderTarget& Studio::target_of(glm::ivec2 size_px) {
+    if (!target_ || Renderer::size_px(*target_) != size_px) {
+        target_ = nullptr;
+        target_ = renderer.make_target(size_px);
+    }
+    return *target_;
+}
+
+Image Studio::picture_in_parts(Scene scene, glm::ivec2 size_px, bool radiance, Reuse reuse) {
+    Image whole = make_image(size_px.x, size_px.y, 3, radiance ? PixelType::F32 : PixelType::U8);
+    const int rows = Renderer::rows_at_once(scene, size_px);
+    for (int top = size_px.y; top > 0; top -= rows) {
+        const int bottom = std::max(top - rows, 0);
+        scene.crop = {size_px, {0, bottom}};
+        const glm::ivec2 part_px{size_px.x, top - bottom};
+        RenderTarget& target = target_of(part_px);
+        if (Renderer::size_px(target) != part_px)
+            throw std::runtime_error("The graphics driver draws at most " +
+                                     std::to_string(Renderer::size_px(target).x) +
+                                     " pixels in a row: choose a smaller --size.");
+        renderer.draw(scene, target, reuse);
+        const Image part = read(target, radiance);
+        const std::size_t row_bytes = part.bytes.size() / std::size_t(part.height);
+        std::ranges::copy(part.bytes,
+                          whole.bytes.begin() + std::ptrdiff_t(row_bytes * std::size_t(size_px.y - top)));
+    }
+    return whole;
+}
+
+Image Studio::picture(const Scene& scene, glm::ivec2 size_px, bool radiance, Reuse reuse) {
+    if (is_reference(scene.view)) return read(*draw_reference(scene, size_px), radiance);
+    return picture_in_parts(scene, size_px, radiance, reuse);
 }
 
 ImageMetadata described(const std::string& what) {

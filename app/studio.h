@@ -17,11 +17,15 @@ struct Studio {
 
     /// Says notes on standard error and shows progress where a person watches.
     Studio(const Registry& registry, const SceneOptions& options);
-    /// Of the target's size; the reference is gathered in a target of its own and says how well it is known.
-    Image picture(const Scene& scene, RenderTarget& target, bool radiance, Reuse reuse = Reuse::None);
+    /// Drawn in parts where that takes less room. The reference says how well it is known.
+    Image picture(const Scene& scene, glm::ivec2 size_px, bool radiance, Reuse reuse = Reuse::Within);
 
 private:
+    Image read(const RenderTarget& target, bool radiance);
+    RenderTarget& target_of(glm::ivec2 size_px);
+    Image picture_in_parts(Scene scene, glm::ivec2 size_px, bool radiance, Reuse reuse);
     TargetHandle draw_reference(const Scene& scene, glm::ivec2 size_px);
+    TargetHandle target_;
     int samples_;   ///< points a pixel of the reference
     double error_;  ///< to what it is to be known; 0: whatever so many points give
 };

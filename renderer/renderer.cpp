@@ -35,6 +35,14 @@ void Renderer::State::bind_light(const GpuEnvironment& environment) const {
     gl::bind_texture(gl::kLobesUnit, GL_TEXTURE_3D, lobes);
 }
 
+blocks::FrameBlock Renderer::State::frame_of(const Scene& scene, glm::ivec2 size_px, const LightLayout& light,
+                                             float largest_radiance) {
+    auto frame =
+        make_frame_block(scene.camera, scene.view, whole_px(scene.crop, size_px), light, largest_radiance);
+    crop_picture(frame, scene.crop, size_px);
+    return frame;
+}
+
 void Renderer::State::bind_maps(const Scene& scene) const {
     for (std::size_t i = 0; i < scene.maps.size(); ++i)
         if (scene.maps[i])
@@ -52,8 +60,7 @@ void Renderer::State::draw_background(Background shown) {
 Features Renderer::State::prepare(const Scene& scene, const GpuEnvironment& environment,
                                   const RenderTarget& target) {
     const Features features = features_for(scene, environment);
-    const auto frame = make_frame_block(scene.camera, scene.view, target.size, layout_of(environment),
-                                        gl::largest_radiance(target));
+    const auto frame = frame_of(scene, target.size, layout_of(environment), gl::largest_radiance(target));
     upload_block(frame_rows, gl::kFrameSlot, frame);
     upload_block(material_rows, gl::kMaterialSlot,
                  make_material_block(scene.material, features, frame.camera_position.w));
@@ -195,7 +202,7 @@ void Renderer::draw(const Scene& scene, RenderTarget& target, Reuse reuse) {
     else
         state_->draw_radiance(shown, environment, target);
     state_->draw_display(shown.view, target);
-    ++state_->work.views_drawn;
+    if (is_counted(scene.crop)) ++state_->work.views_drawn;
     state_->work.pixels_drawn += std::uint64_t(target.size.x) * std::uint64_t(target.size.y);
 }
 

@@ -7,6 +7,7 @@
 
 #include "materials/material.h"
 #include "renderer/core/camera.h"
+#include "renderer/core/crop.h"
 #include "renderer/core/environment.h"
 #include "renderer/core/image.h"
 #include "renderer/core/ledger.h"
@@ -45,6 +46,7 @@ struct Scene {
     Material material;
     Camera camera;
     View view;
+    Crop crop;
     bool operator==(const Scene&) const = default;  ///< the same picture
 };
 
@@ -61,6 +63,7 @@ enum class TargetPrecision { Half, Full };
 /// the same either way.
 enum class Reuse {
     None,
+    Within,  ///< for this picture alone: software shades the borders of small triangles several times over
     IfRepeated,  ///< when the same surface was drawn a moment ago
     Expected,    ///< more pictures of it follow
     Standing     ///< likewise, and then none from a moved camera: where it was rasterised is given back
@@ -108,6 +111,9 @@ public:
     void draw(const Scene& scene, RenderTarget& target, Reuse reuse = Reuse::None);
     /// From now on programs are taken from there where the driver agrees, and given there when compiled.
     void set_program_store(ProgramStore store);
+    /// How many rows of a picture of that size are best drawn at once with Reuse::Within, the rest by crops:
+    /// what lies under a picture's samples takes software more room than the picture.
+    static int rows_at_once(const Scene& scene, glm::ivec2 size_px);
     /// False: every picture is rasterised anew, for comparison.
     void set_reuse(bool allowed);
     /// Whether both show one surface at one size: what draw() can shade without rasterising it again.

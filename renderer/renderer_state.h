@@ -84,6 +84,9 @@ struct Renderer::State {
     const gl::Program& rival(Features features, int samples);
     const gl::Program& background(Background background, bool stored = false);
     const gl::Program& display(int samples, Tonemap tonemap, bool stored);
+    /// The camera's rows, and with light its own.
+    static blocks::FrameBlock frame_of(const Scene& scene, glm::ivec2 size_px, const LightLayout& light,
+                                       float largest_radiance);
     void bind_light(const GpuEnvironment& environment) const;
     /// The blocks and the light of a picture; what its shaders are chosen by.
     Features prepare(const Scene& scene, const GpuEnvironment& environment, const RenderTarget& target);

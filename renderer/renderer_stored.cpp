@@ -13,6 +13,13 @@ namespace {
 
 constexpr std::uint64_t kMostScratchBytes = std::uint64_t{384} << 20;
 constexpr std::uint64_t kSmallScratchBytes = std::uint64_t{64} << 20;
+
+constexpr std::int64_t kSmallTriangle = 64;  ///< pixels of the picture a triangle of the mesh
+bool has_small_triangles(const Scene& scene, glm::ivec2 whole) {
+    if (!scene.mesh) return false;
+    return std::int64_t(scene.mesh->index_count / 3) * kSmallTriangle > std::int64_t(whole.x) * whole.y;
+}
+
 /// Its maps as they are, but for the normals, which are kept as shaded.
 Material with_plain_values(const Material& material) {
     Material plain = material;
@@ -42,8 +49,12 @@ std::vector<std::string> packed_defines(const Scene& scene, Features maps) {
 }
 
 SurfaceKey key_of(const Scene& scene, Features maps, glm::ivec2 size_px, int samples) {
-    SurfaceKey key{
-        .mesh = scene.mesh, .features = maps, .camera = scene.camera, .size_px = size_px, .samples = samples};
+    SurfaceKey key{.mesh = scene.mesh,
+                   .features = maps,
+                   .camera = scene.camera,
+                   .crop = scene.crop,
+                   .size_px = size_px,
+                   .samples = samples};
     const Material& material = scene.material;
     const auto reads = [&](MapSlot slot) { return (maps >> Features(slot) & 1u) != 0; };
     for (std::size_t i = 0; i < key.maps.size(); ++i)
@@ -105,6 +116,10 @@ std::shared_ptr<const GpuSurfaces> Renderer::State::surfaces_for(const Scene& sc
     const Features maps = features & kMaps;
     if (gl::SurfaceScratch::bytes_for(target.size, target.samples, kind_of(maps)) > kMostScratchBytes)
         return {};
+    if (wanted == Reuse::Within) {
+        const bool pays = gl::is_software() && has_small_triangles(scene, whole_px(scene.crop, target.size));
+        return pays ? rasterised(scene, target, maps, {}) : std::shared_ptr<const GpuSurfaces>{};
+    }
     const SurfaceKey key = key_of(scene, maps, target.size, target.samples);
     if (auto found = kept_surfaces.find(key)) {
         if (++scratch_idle > kIdleScratch) scratch = {};
@@ -146,14 +161,14 @@ std::shared_ptr<GpuSurfaces> Renderer::State::rasterised(const Scene& scene, con
         scratch.make(target.size, target.samples, kind_of(maps));
     set_switches();
     scratch.begin();
-    rasterise(scene, make_frame_block(scene.camera, scene.view, target.size, {}, 0.0f), maps);
+    rasterise(scene, frame_of(scene, target.size, {}, 0.0f), maps);
     scratch.begin_rays();
     if (!stored.behind) stored.behind = compiled("background.vert.glsl", "surfaces_behind.frag.glsl", {});
     glDepthMask(GL_FALSE);
     glUseProgram(stored.behind.name());
     glBindVertexArray(nothing.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
-    ++work.surfaces_rasterised;
+    if (is_counted(scene.crop)) ++work.surfaces_rasterised;
     count_draw(3, 3);
     return std::make_shared<GpuSurfaces>(
         scratch.finish(surface_programs(target.samples, maps), old ? std::move(*old) : GpuSurfaces{}));
@@ -166,7 +181,7 @@ void Renderer::State::shade_stored(const Scene& scene, const GpuEnvironment& env
     const Features features = prepare(scene, environment, target);
     gl::bind_surface_layers(*from);
     gl::shade_rows(*from, gl::StoredRows::Mesh, stored_surface(features).name(), nothing.name());
-    ++work.views_from_surfaces;
+    if (is_counted(scene.crop)) ++work.views_from_surfaces;
     count_draw(1);
     if (scene.view.background == Background::Plain) return;
     gl::shade_rows(*from, gl::StoredRows::Behind, background(scene.view.background, true).name(),
@@ -182,6 +197,19 @@ void Renderer::State::draw_resolved(const RenderTarget& target) {
     gl::bind_texture(gl::kPictureUnit, GL_TEXTURE_2D, target.stored.colors);
     gl::bind_surface_pixels(*target.stored.surfaces);
     gl::draw_all(program.name(), nothing.name(), {0, 0, target.size});
+}
+
+/// A part has not so few pixels that transforming the vertices for each takes longer than shading. Whole
+/// quads of pixels: gradients are then those of the whole picture.
+int Renderer::rows_at_once(const Scene& scene, glm::ivec2 size_px) {
+    constexpr int quad = 4;
+    std::int64_t pixels = std::int64_t{1} << 24;
+    if (gl::is_software() && has_small_triangles(scene, size_px))
+        pixels = std::max<std::int64_t>(std::int64_t{1} << 16, scene.mesh->index_count / 3);
+    const auto all = std::int64_t(size_px.x) * size_px.y;
+    const int parts = int(std::max<std::int64_t>((all + pixels - 1) / pixels, 1));
+    const int rows = (size_px.y + parts - 1) / parts;
+    return (rows + quad - 1) / quad * quad;
 }
 
 bool Renderer::same_surface(const Scene& a, const Scene& b) {

@@ -4,6 +4,7 @@
 
 #include "materials/material.h"
 #include "renderer/core/camera.h"
+#include "renderer/core/crop.h"
 #include "renderer/features.h"
 
 #include <glm/vec2.hpp>
@@ -25,6 +26,7 @@ struct SurfaceKey {
     std::array<Channel, 3> channels{};  ///< of roughness, metallic and occlusion, where mapped
     Features features = 0;              ///< which maps
     Camera camera;
+    Crop crop;
     glm::ivec2 size_px{0};
     int samples = 1;
     UvTransform uv;                ///< without maps the usual one
@@ -39,8 +41,9 @@ inline bool operator==(const SurfaceKey& a, const SurfaceKey& b) {
     for (std::size_t i = 0; i < a.maps.size(); ++i)
         if (!is_same(a.maps[i], b.maps[i])) return false;
     return is_same(a.mesh, b.mesh) && a.channels == b.channels && a.features == b.features &&
-           a.camera == b.camera && a.size_px == b.size_px && a.samples == b.samples && a.uv == b.uv &&
-           a.normal_strength == b.normal_strength && a.normal_convention == b.normal_convention;
+           a.camera == b.camera && a.crop == b.crop && a.size_px == b.size_px && a.samples == b.samples &&
+           a.uv == b.uv && a.normal_strength == b.normal_strength &&
+           a.normal_convention == b.normal_convention;
 }
 
 /// Surfaces by key, bounded by their bytes; the least recently used go first, and those that many other

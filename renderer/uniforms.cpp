@@ -106,6 +106,22 @@ void move_picture(blocks::FrameBlock& block, glm::vec2 offset) {
     block.ray_center -= vec4(moved, 0.0f);
 }
 
+/// With x the place in the whole picture and y in the part, both −1…1: y = scale x + shift.
+void crop_picture(blocks::FrameBlock& block, const Crop& crop, glm::ivec2 size_px) {
+    if (crop == Crop{}) return;
+    const glm::vec2 scale = glm::vec2(crop.whole_px) / glm::vec2(size_px);
+    const glm::vec2 shift = glm::vec2(crop.whole_px - 2 * crop.at_px - size_px) / glm::vec2(size_px);
+    for (vec4& column : block.view_projection) {
+        column.x = scale.x * column.x + shift.x * column.w;
+        column.y = scale.y * column.y + shift.y * column.w;
+    }
+    const vec3 right = vec3(block.ray_right) / scale.x;
+    const vec3 up = vec3(block.ray_up) / scale.y;
+    block.ray_center -= vec4(shift.x * right + shift.y * up, 0.0f);
+    block.ray_right = vec4(right, block.ray_right.w);
+    block.ray_up = vec4(up, block.ray_up.w);
+}
+
 blocks::MaterialBlock make_material_block(const Material& material, Features features, float exposure) {
     blocks::MaterialBlock block{};
     block.albedo = vec4(material.albedo.value, 1.0f);

@@ -3,6 +3,7 @@
 
 #include "materials/material.h"
 #include "renderer/core/camera.h"
+#include "renderer/core/crop.h"
 #include "renderer/core/view.h"
 #include "renderer/features.h"
 #include "renderer/ibl/bake.h"
@@ -35,6 +36,9 @@ blocks::FrameBlock make_frame_block(const Camera& camera, const View& view, glm:
 
 /// Everything is seen offset further to the right and up, in halves of the picture's sides.
 void move_picture(blocks::FrameBlock& block, glm::vec2 offset);
+
+/// Of the picture only that part is seen, in a picture of size_px.
+void crop_picture(blocks::FrameBlock& block, const Crop& crop, glm::ivec2 size_px);
 
 /// features: which maps are read. exposure: factor on what the surface emits.
 blocks::MaterialBlock make_material_block(const Material& material, Features features, float exposure);

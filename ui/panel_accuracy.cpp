@@ -59,9 +59,14 @@ std::string title_of(const Layer& layer) {
     return {};
 }
 
+/// Three digits, about: no clock of a frame is better than that.
+std::string milliseconds(double ms) {
+    return formatted(ms < 10.0 ? "%.2f ms" : ms < 100.0 ? "%.1f ms" : "%.0f ms", ms);
+}
+
 std::string headline(const AccuracyStatus& status) {
     if (!status.measured) return "Measuring…";
-    return "IBL error " + percent(status.rms) + " rms · " + formatted("%.2f ms", status.frame_ms);
+    return "IBL error " + percent(status.rms) + " rms · " + milliseconds(status.frame_ms);
 }
 
 std::string progress_of(const AccuracyStatus& status) {

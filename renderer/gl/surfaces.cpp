@@ -17,6 +17,10 @@ constexpr std::uint32_t kMixedPixel = 0x80000000u;
 constexpr std::size_t kViews = 1;  ///< the layer that has the rays, too
 constexpr int kRoomStep = 32;      ///< rows: pictures that differ little have the same room
 
+/// Never a power of two: a software renderer compiles all that reads the texture anew where one side becomes
+/// one.
+int room_for(int rows) { return std::max((rows + kRoomStep - 1) / kRoomStep, 1) * kRoomStep + 1; }
+
 int layer_count(SurfaceMaps maps) {
     return maps == SurfaceMaps::None ? 3 : maps == SurfaceMaps::Some ? 5 : 6;
 }
@@ -67,7 +71,7 @@ void require_complete(glm::ivec2 size) {
 
 /// Layers with room for the rows, old's where they fit.
 void make_room(GpuSurfaces& surfaces, int layers, GpuSurfaces old) {
-    const auto fits = [](int rows, int room) { return room >= rows && room <= 2 * rows + kRoomStep; };
+    const auto fits = [](int rows, int room) { return room >= rows && room <= 2 * (rows + kRoomStep); };
     const auto has_layer = [](const Texture& layer) { return bool(layer); };
     if (std::ranges::count_if(old.layers, has_layer) == layers && fits(surfaces.mesh_rows, old.mesh_room) &&
         fits(surfaces.rows, old.room)) {
@@ -76,9 +80,8 @@ void make_room(GpuSurfaces& surfaces, int layers, GpuSurfaces old) {
         surfaces.layers = std::move(old.layers);
         return;
     }
-    const auto rounded = [](int rows) { return std::max((rows + kRoomStep - 1) / kRoomStep, 1) * kRoomStep; };
-    surfaces.mesh_room = rounded(surfaces.mesh_rows);
-    surfaces.room = rounded(surfaces.rows);
+    surfaces.mesh_room = room_for(surfaces.mesh_rows);
+    surfaces.room = room_for(surfaces.rows);
     for (std::size_t i = 0; i < std::size_t(layers); ++i)
         surfaces.layers[i] =
             make_texture(GL_RGBA32F, {GpuSurfaces::kWidth, i == kViews ? surfaces.room : surfaces.mesh_room},
@@ -144,16 +147,17 @@ Sorted sorted(const std::vector<float>& fragments, glm::ivec2 size, int samples)
 }
 
 Texture make_places(const Sorted& fragments) {
-    std::vector<Sorted::Place> places(std::size_t(fragments.rows) * GpuSurfaces::kWidth);
+    const int rows = room_for(fragments.rows);
+    std::vector<Sorted::Place> places(std::size_t(rows) * GpuSurfaces::kWidth);
     std::ranges::copy(fragments.mesh, places.begin());
     std::ranges::copy(fragments.behind,
                       places.begin() + std::ptrdiff_t(fragments.mesh_rows) * GpuSurfaces::kWidth);
-    return make_texture(GL_RGBA16UI, {GpuSurfaces::kWidth, fragments.rows},
-                        {GL_RGBA_INTEGER, GL_UNSIGNED_SHORT}, places.data());
+    return make_texture(GL_RGBA16UI, {GpuSurfaces::kWidth, rows}, {GL_RGBA_INTEGER, GL_UNSIGNED_SHORT},
+                        places.data());
 }
 
 Texture make_mixed(Sorted& fragments) {
-    const int rows = std::max(rows_of(fragments.mixed.size()), 1);
+    const int rows = room_for(rows_of(fragments.mixed.size()));
     fragments.mixed.resize(std::size_t(rows) * GpuSurfaces::kWidth);
     return make_texture(GL_RGBA32UI, {GpuSurfaces::kWidth, rows}, {GL_RGBA_INTEGER, GL_UNSIGNED_INT},
                         fragments.mixed.data());
@@ -278,7 +282,7 @@ void SurfaceScratch::draw_sorted(const GpuSurfaces& surfaces, const SurfaceProgr
 GpuSurfaces SurfaceScratch::finish(const SurfacePrograms& programs, GpuSurfaces old) {
     const KeepTextureBindings keep;
     Sorted fragments = sorted(read_fragments(programs), size_px_, samples_);
-    if (fragments.rows > most_rows())
+    if (room_for(fragments.rows) > most_rows())
         throw std::runtime_error("The picture has more fragments than the graphics driver has room for.");
     GpuSurfaces surfaces{.size_px = size_px_,
                          .samples = samples_,
@@ -315,7 +319,7 @@ void bind_surface_pixels(const GpuSurfaces& surfaces) {
 }
 
 void begin_shading(StoredPicture& picture, std::shared_ptr<const GpuSurfaces> surfaces, bool full_float) {
-    const glm::ivec2 extent{GpuSurfaces::kWidth, surfaces->rows};
+    const glm::ivec2 extent{GpuSurfaces::kWidth, surfaces->room};
     if (!picture.colors || picture.extent != extent) {
         const KeepTextureBindings keep;
         picture.framebuffer = Framebuffer::make();

@@ -4,6 +4,7 @@
 #include "light.glsl"
 
 #ifdef HAS_STORED
+#include "software.glsl"
 uniform sampler2D stored_views;
 #else
 in vec3 world_ray;
@@ -55,6 +56,7 @@ vec3 background_light(vec3 d, float solid_angle, vec3 lights) {
 
 void main() {
 #ifdef HAS_STORED
+    spare_whole_tiles();
     vec3 world_ray = texelFetch(stored_views, ivec2(gl_FragCoord.xy), 0).xyz;
 #endif
     vec3 d = environment_direction(normalize(world_ray));

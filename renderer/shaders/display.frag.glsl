@@ -3,6 +3,7 @@
 #include "tonemap.glsl"
 
 #include "picture.glsl"
+#include "software.glsl"
 
 uniform vec3 plain;     // display-linear colour where nothing was drawn
 
@@ -20,6 +21,7 @@ vec3 tonemapped(vec4 texel) {
 }
 
 void main() {
+    spare_whole_tiles();
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec4 first = picture_sample(at, 0);
     vec3 color = tonemapped(first);

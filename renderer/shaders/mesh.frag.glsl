@@ -5,6 +5,7 @@
 #include "lobes.glsl"
 #include "material.glsl"
 #ifdef HAS_STORED
+#include "software.glsl"
 #include "stored.glsl"
 #else
 #include "surface.glsl"
@@ -124,6 +125,7 @@ Reflected reflected_light(Surface s, Geometry g) {
 
 void main() {
 #ifdef HAS_STORED
+    spare_whole_tiles();
     Surface s = surface_of(stored_maps());
     Geometry g = stored_geometry();
 #else

@@ -1,5 +1,7 @@
 // Fragments laid side by side, each once however many samples it covers. With FRAGMENTS: instead, which triangle lies under
 // each of a pixel's samples. With RAYS: of the layers the one that rays have.
+#include "software.glsl"
+
 #ifdef SAMPLES
 #define Samples sampler2DMS
 #else
@@ -10,6 +12,7 @@
 uniform Samples picture;
 out vec4 fragments;
 void main() {
+    spare_whole_tiles();
     ivec2 at = ivec2(gl_FragCoord.xy);
     fragments = vec4(texelFetch(picture, at, 0).r);
 #ifdef SAMPLES
@@ -22,6 +25,7 @@ uniform Samples stored_views;
 #ifdef RAYS
 out vec4 sorted_ray;
 void main() {
+    spare_whole_tiles();
     uvec3 place = texelFetch(fragment_places, ivec2(gl_FragCoord.xy), 0).rgb;
     sorted_ray = texelFetch(stored_views, ivec2(place.xy), int(place.z));
 }
@@ -43,6 +47,7 @@ layout(location = 5) out vec4 sorted_emission;
 #endif
 
 void main() {
+    spare_whole_tiles();
     uvec3 place = texelFetch(fragment_places, ivec2(gl_FragCoord.xy), 0).rgb;
     ivec2 at = ivec2(place.xy);
     int i = int(place.z);
