@@ -107,8 +107,8 @@ struct Reference::State {
 
     int most_at_once() const;
     int count_at_once() const;
-    /// A row of the next slice: its points, and as much as three for what is done once.
-    double work_of_row() const { return next.count + 3.0; }
+    /// A row of the next slice: its points, and as much as ten for what is done once.
+    double work_of_row() const { return next.count + 10.0; }
     int rows_within(double seconds) const;
     glm::vec2 jitter_px() const;
     void begin();
@@ -128,7 +128,8 @@ int Reference::State::most_at_once() const {
 /// By the clock first one, so that there is soon a picture; then as many as there are already.
 int Reference::State::count_at_once() const {
     const int most = most_at_once();
-    return by_clock && round < 16 ? std::min(most, 1 << std::max(round - 1, 0)) : most;
+    if (!by_clock) return most;
+    return std::min(most, next.first == 0 ? 1 : next.first == 1 ? 3 : next.first);
 }
 
 /// Shuffled: each place of the pixel is to see all kinds of directions.
@@ -143,7 +144,8 @@ void Reference::State::begin() {
     progress = {};
     round_ended = false;
     round = judged = counted = rows = 0;
-    next = {.count = count_at_once()};
+    next = {};
+    next.count = count_at_once();
     wanted = std::max(options.tolerance, kFirstTolerance);
     counts.assign(2 * std::size_t(target.size.x) * target.size.y, 0.0f);
     for (std::size_t i = 1; i < counts.size(); i += 2) counts[i] = 1.0f;
@@ -151,12 +153,12 @@ void Reference::State::begin() {
     gl::clear_reference(target);
 }
 
-/// Those pixels rest around which all that count are known well enough; what is no part of the mesh costs
-/// little.
+/// Those pixels rest around which all that are part of the mesh are known well enough; what is behind it is
+/// smooth.
 void Reference::State::rest(const std::vector<float>& half_widths) {
     const std::vector<float> around = largest_around(half_widths, target.size);
     for (std::size_t i = 0; i < half_widths.size(); ++i)
-        counts[2 * i + 1] = half_widths[i] >= 0.0f && double(around[i]) <= wanted ? 0.0f : 1.0f;
+        counts[2 * i + 1] = double(around[i]) <= wanted ? 0.0f : 1.0f;
     gl::set_reference_counts(target, counts);
 }
 
