@@ -22,11 +22,14 @@ using Part = std::tuple<const char*, int>;
 
 class SlowShaders : public testing::TestWithParam<Part> {};
 
+/// The reference's two, which read what was rasterised before.
+bool is_of_reference(const std::string& fragment) { return fragment.starts_with("reference"); }
+
 /// Those that differ to that shader: the reference's reads maps and emission alone.
 std::set<Features> feature_sets(const std::string& fragment) {
     std::set<Features> sets;
     for (const Features features : all_features())
-        sets.insert(fragment == "reference.frag.glsl" ? reference_features(features) : features);
+        sets.insert(is_of_reference(fragment) ? reference_features(features) : features);
     return sets;
 }
 
@@ -34,8 +37,7 @@ TEST_P(SlowShaders, every_permutation_compiles) {
     renderer();
     const auto& [name, part] = GetParam();
     const gl::ShaderText fragment = gl::embedded_shader(name);
-    const bool is_reference =
-        fragment.name == "reference.frag.glsl";  // which reads what was rasterised before
+    const bool is_reference = is_of_reference(fragment.name);
     const gl::ShaderText vertex = gl::embedded_shader(is_reference ? "display.vert.glsl" : "mesh.vert.glsl");
     int compiled = 0, index = 0;
     for (const Features features : feature_sets(name)) {
@@ -62,7 +64,7 @@ std::string name_of(const testing::TestParamInfo<Part>& info) {
 
 INSTANTIATE_TEST_SUITE_P(SlowPermutations, SlowShaders,
                          testing::Combine(testing::Values("mesh.frag.glsl", "reference.frag.glsl",
-                                                          "rivals.frag.glsl"),
+                                                          "reference_cells.frag.glsl", "rivals.frag.glsl"),
                                           testing::Range(0, kParts)),
                          name_of);
 
