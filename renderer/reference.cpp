@@ -153,12 +153,12 @@ void Reference::State::begin() {
     gl::clear_reference(target);
 }
 
-/// Those pixels rest around which all that are part of the mesh are known well enough; what is behind it is
-/// smooth.
+/// Those pixels rest around which all that count are known well enough. One that no slice has met the mesh in
+/// does not: the next may.
 void Reference::State::rest(const std::vector<float>& half_widths) {
     const std::vector<float> around = largest_around(half_widths, target.size);
     for (std::size_t i = 0; i < half_widths.size(); ++i)
-        counts[2 * i + 1] = double(around[i]) <= wanted ? 0.0f : 1.0f;
+        counts[2 * i + 1] = half_widths[i] >= 0.0f && double(around[i]) <= wanted ? 0.0f : 1.0f;
     gl::set_reference_counts(target, counts);
 }
 

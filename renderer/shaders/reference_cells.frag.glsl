@@ -1,4 +1,5 @@
 // How much a pixel reflects of the light of each of the panorama's cells, roughly: what it draws from them by. Once a picture.
+#include "software.glsl"
 #include "reference.glsl"
 
 layout(location = 0) out uvec4 first_cells;   // four cells a word, the first in the lowest byte
@@ -36,6 +37,7 @@ uint word_of(Sampled p, mat3 frame, int i) {
 }
 
 void main() {
+    spare_whole_tiles();
     first_cells = last_cells = uvec4(0x01010101u);
     if (texelFetch(stored_fragments, ivec2(gl_FragCoord.xy), 0).r <= 0.0) return;
     Sampled p;
