@@ -73,7 +73,7 @@ inline constexpr std::array kQualities{
     Named<Quality>{Quality::Standard, "standard", "Standard",
                    "Fitted lobes with one look into the prefiltered light."},
     Named<Quality>{Quality::High, "high", "High",
-                   "Fitted lobes with three looks: closer to the integral, at half as much again."},
+                   "Fitted lobes with three looks: closer to the integral, at four fifths more."},
 };
 inline constexpr std::array kTonemaps{
     Named<Tonemap>{Tonemap::None, "none", "None",
