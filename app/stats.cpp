@@ -56,7 +56,7 @@ void count_light(WorkLedger& work, const LightOrder& order, const ReadyLight& re
         skip(work, "irradiance", "nothing in the picture scatters light diffusely");
     if (order.needed->roughness.empty())
         skip(work, "prefiltered levels", "nothing in the picture reflects light blurred");
-    else if (ready.held->exact.levels.size() < drawn_roughness_levels().size())
+    else if (ready.held->exact.levels.size() < standard_roughness_levels().size())
         skip(work, "further roughness levels", "the material does not reach them");
 }
 

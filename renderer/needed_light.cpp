@@ -3,6 +3,7 @@
 #include "renderer/brdf.h"
 #include "renderer/features.h"
 #include "renderer/gl/brdf_table.h"
+#include "renderer/ibl/bake.h"
 #include "renderer/lobes/lobe_table.h"
 #include "renderer/uniforms.h"
 
@@ -14,7 +15,7 @@ namespace patina {
 namespace {
 
 constexpr float kSame = 1e-5f;          ///< relative: roughness that is taken for equal
-constexpr float kWidestPitch = 1.168f;  ///< ratio of neighbouring drawn levels, 10^(1/15), and rounding
+constexpr float kWidestPitch = 1.168f;  ///< ratio of neighbouring standard levels, 10^(1/15), and rounding
 
 /// 1 − Ess at one roughness, averaged over the sphere as it is seen (cosine-weighted): what bounces more than
 /// once. Table texels lie at NoV = s², so 2 NoV dNoV = 4 s³ ds, by trapezia.
@@ -81,7 +82,7 @@ bool needs_irradiance(const Material& material, ValueRange metallic, ValueRange 
     return (diffuse && view.debug != DebugView::Specular) || (multiple && view.debug != DebugView::Diffuse);
 }
 
-/// Of held levels, ascending: true if neighbours no further apart than drawn ones reach over the range.
+/// Of held levels, ascending: true if neighbours no further apart than standard ones reach over the range.
 bool is_covered(ValueRange range, const std::vector<float>& held) {
     const float low = range.low * (1.0f + kSame), high = range.high * (1.0f - kSame);
     auto next = std::upper_bound(held.begin(), held.end(), low);
@@ -99,13 +100,13 @@ bool holds(const std::vector<float>& levels, float roughness) {
                        [&](float each) { return std::abs(each - roughness) <= kSame * roughness; });
 }
 
-/// The drawn levels that enclose a range.
+/// The standard levels that enclose a range.
 std::vector<float> enclosing_levels(ValueRange range) {
-    const std::vector<float> drawn = drawn_roughness_levels();
-    auto first = std::upper_bound(drawn.begin(), drawn.end(), range.low * (1.0f + kSame));
-    if (first != drawn.begin()) --first;
-    auto last = std::lower_bound(first, drawn.end(), range.high * (1.0f - kSame));
-    if (last != drawn.end()) ++last;
+    const std::vector<float> standard = standard_roughness_levels();
+    auto first = std::upper_bound(standard.begin(), standard.end(), range.low * (1.0f + kSame));
+    if (first != standard.begin()) --first;
+    auto last = std::lower_bound(first, standard.end(), range.high * (1.0f - kSame));
+    if (last != standard.end()) ++last;
     return {first, last};
 }
 

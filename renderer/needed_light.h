@@ -7,7 +7,6 @@
 
 #include "materials/material.h"
 #include "renderer/core/view.h"
-#include "renderer/ibl/bake.h"
 #include "renderer/map_range.h"
 
 #include <vector>
@@ -20,7 +19,9 @@ struct NeededLight {
     bool operator==(const NeededLight&) const = default;
 };
 
-/// At or below it a lobe is a mirror's: the share of the sharpest level is (r/kSharpestLevel)⁴ ≤ 4 · 10⁻⁴.
+/// Sharper lobes are made of this level's tails and samples of the panorama.
+inline constexpr float kSharpestLevel = 0.1f;
+/// At or below it a lobe is a mirror's: the share of that level is (r/kSharpestLevel)⁴ ≤ 10⁻⁴.
 inline constexpr float kMirrorRoughness = 0.01f;
 /// Weights of the irradiance below it are left out: a picture then errs by less than this share of E/π.
 inline constexpr float kIgnoredWeight = 1e-3f;
@@ -33,8 +34,8 @@ NeededLight all_light();
 NeededLight combined(const NeededLight& a, const NeededLight& b);
 
 /// The roughness of the levels to bake so that everything needed lies on a level or between two that are as
-/// close as the drawn ones; none if it does already. held: ascending. Where nothing is held yet, one
-/// roughness is baked as it is; otherwise drawn levels are added, so that a slider that moves on finds
+/// close as the standard ones; none if it does already. held: ascending. Where nothing is held yet, one
+/// roughness is baked as it is; otherwise standard levels are added, so that a slider that moves on finds
 /// them.
 std::vector<float> missing_levels(const NeededLight& needed, const std::vector<float>& held);
 

@@ -77,10 +77,9 @@ struct Upload {
     std::function<std::shared_ptr<const T>()> finish;  ///< copies what is left and hands it over; call once
 };
 
-/// What upload_environment is given for pictures: all drawn levels, compact lights apart.
+/// What upload_environment is given for pictures: the standard levels, compact lights apart.
 inline BakeSettings drawing_bake_settings() {
     BakeSettings settings;
-    settings.roughness = drawn_roughness_levels();
     settings.extract_lights = true;
     return settings;
 }

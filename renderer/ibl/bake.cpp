@@ -192,12 +192,6 @@ std::vector<float> standard_roughness_levels() {
     return levels;
 }
 
-std::vector<float> drawn_roughness_levels() {
-    std::vector<float> levels = standard_roughness_levels();
-    levels.insert(levels.begin(), {kSharpestLevel, std::sqrt(kSharpestLevel * levels.front())});
-    return levels;
-}
-
 std::optional<BakedEnvironment> bake_environment(const Environment& environment, const BakeSettings& settings,
                                                  const BakeControl& control) {
     assert(environment.width > 0 && environment.height > 0);

@@ -63,12 +63,8 @@ struct BakedEnvironment {
     BakeTimings timings;  ///< not stored by the cache
 };
 
-/// Sixteen roughness values, geometric from 0.1 to 1: what is baked where nobody asks for others.
+/// The roughness values the renderer interpolates between: geometric from 0.1 to 1.
 std::vector<float> standard_roughness_levels();
-/// The roughness values the renderer interpolates between: the standard ones and, in like steps, two sharper
-/// ones down to kSharpestLevel, because fitted lobes are narrower than their surface is rough.
-std::vector<float> drawn_roughness_levels();
-inline constexpr float kSharpestLevel = 0.075f;  ///< about the last that the transform does whole
 
 /// Part of the cache key: raised whenever bake_environment's output changes.
 inline constexpr int kBakerVersion = 7;

@@ -23,8 +23,7 @@ struct Judgement {
 };
 
 struct JudgeSettings {
-    std::vector<float> roughness = {0.12f, 0.14f, 0.17f, 0.2f, 0.23f, 0.3f,
-                                    0.4f,  0.5f,  0.6f,  0.7f, 0.85f, 1.0f};
+    std::vector<float> roughness = {0.14f, 0.17f, 0.2f, 0.23f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.85f, 1.0f};
     int pixels = 500;
     int truth_samples = 32768;
 };

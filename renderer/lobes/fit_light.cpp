@@ -78,7 +78,6 @@ Environment residual_of(const Environment& environment, const LightExtraction& e
 
 void add_environment(FitLight& light, const Environment& environment, int lane) {
     BakeSettings settings;
-    settings.roughness = drawn_roughness_levels();
     settings.extract_lights = true;
     const BakedEnvironment baked = *bake_environment(environment, settings, {});
     const RadianceStatistics statistics = radiance_statistics(view_of(environment), serial_for);

@@ -179,7 +179,7 @@ private:
             for (int t = 0; t < taps_; ++t) {
                 double& turn = q[std::ptrdiff_t(2) * t];
                 turn = std::clamp(turn, -std::min(3.0, widest), std::min(4.0, widest));
-                const double least = std::log(kSharpestLevel / roughness) - 0.1;
+                const double least = std::log(brdf::kSharpestFitted / roughness) - 0.1;
                 q[2 * t + 1] = std::clamp(q[2 * t + 1], std::max(-1.6, least),
                                           std::min(1.0, 0.02 - std::log(roughness)));
             }

@@ -186,7 +186,7 @@ PATINA_FN float core_tangent2(float q, float alpha2, float alpha1_2) {
 // The wider lobe of a fitted one's split: below this multiple of the sharpest level's roughness, where no stored level is
 // as narrow as the true lobe across the plane of incidence, the tails are those of a lobe about as far above it. The fit is
 // good there, the core holds most of the light, and the two meet where sampling ends.
-const float kCoreReach = 1.5f;
+const float kCoreReach = 1.3f;
 PATINA_FN float tail_roughness(float roughness, float sharpest) {
     float reach = kCoreReach * sharpest;
     return min(max(reach + 0.8f * (reach - roughness), roughness), 1.0f);

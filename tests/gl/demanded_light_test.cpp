@@ -44,7 +44,6 @@ TEST(DemandedLight, draws_the_same_picture_as_all_light) {
     const Environment environment = make_panorama(lamps_and_sky, 128);
     BakeSettings settings;
     settings.max_face_size = 32;
-    settings.roughness = drawn_roughness_levels();
     const EnvironmentHandle all = light_with(environment, *bake_environment(environment, settings, {}));
     for (const float metallic : {0.0f, 1.0f})
         for (const float roughness : {0.0f, 0.05f, 0.12f, 0.37f, 0.8f}) {

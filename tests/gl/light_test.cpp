@@ -2,6 +2,7 @@
 #include "renderer/gl/half.h"
 #include "renderer/gl/light_levels.h"
 #include "renderer/gl/mesh_prepare.h"
+#include "renderer/needed_light.h"
 #include "tests/gl/scene.h"
 
 #include <gtest/gtest.h>

@@ -114,7 +114,7 @@ TEST(DemandedLight, adds_levels_without_baking_any_twice) {
     order.needed = all_light();
     const auto all = shop.get(order);
     EXPECT_TRUE(serves(*all->held, one_roughness(0.9f)));
-    EXPECT_EQ(std::size_t(all->levels_baked), drawn_roughness_levels().size() - 2);
+    EXPECT_EQ(std::size_t(all->levels_baked), standard_roughness_levels().size() - 2);
 }
 
 TEST(DemandedLight, comes_from_the_disk_without_a_first_light) {
@@ -127,7 +127,7 @@ TEST(DemandedLight, comes_from_the_disk_without_a_first_light) {
     EXPECT_FALSE(again->is_first_light);
     EXPECT_EQ(again->held->exact.levels.size(), 1u);
     const auto whatever = shop.get({.id = "sky", .first_light = true});
-    EXPECT_EQ(whatever->held->exact.levels.size(), drawn_roughness_levels().size());
+    EXPECT_EQ(whatever->held->exact.levels.size(), standard_roughness_levels().size());
     EXPECT_TRUE(whatever->held->coarse.levels.empty());
 }
 

@@ -50,16 +50,5 @@ TEST(RoughnessLevels, are_sixteen_and_close_enough_to_interpolate) {
     }
 }
 
-TEST(RoughnessLevels, that_are_drawn_go_on_below_the_standard_ones_in_no_larger_steps) {
-    const std::vector<float> standard = standard_roughness_levels(), drawn = drawn_roughness_levels();
-    EXPECT_EQ(drawn.front(), kSharpestLevel);
-    ASSERT_EQ(drawn.size(), standard.size() + 2);
-    EXPECT_EQ(std::vector<float>(drawn.begin() + 2, drawn.end()), standard);
-    for (int i = 0; i < 2; ++i) {
-        EXPECT_GT(drawn[i + 1], drawn[i]);
-        EXPECT_LE(drawn[i + 1] / drawn[i], 1.166f);
-    }
-}
-
 }  // namespace
 }  // namespace patina
