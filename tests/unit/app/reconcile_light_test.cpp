@@ -87,7 +87,7 @@ TEST(DemandedLight, begins_with_a_first_light_and_bakes_the_one_level_that_is_ne
     EXPECT_TRUE(first->is_first_light);
     EXPECT_EQ(first->levels_baked, 0);
     EXPECT_TRUE(first->held->exact.levels.empty());
-    EXPECT_EQ(first->light->levels.roughness.size(), shop.settings.roughness.size());
+    EXPECT_EQ(first->light->levels.roughness.size(), standard_roughness_levels().size());
     EXPECT_FALSE(serves(*first->held, *order.needed));
 
     order.held = first->held;
