@@ -1,5 +1,7 @@
 #include "app/bench_markdown.h"
 
+#include "app/bench.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -18,12 +20,6 @@ std::string number(double value, int digits) {
     char text[64];
     std::snprintf(text, sizeof(text), "%.*f", digits, value);
     return text;
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
 }
 
 /// In the order they come.

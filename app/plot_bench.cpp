@@ -1,5 +1,6 @@
 #include "app/plot_bench.h"
 
+#include "app/bench.h"
 #include "app/plot_drawing.h"
 
 #include <nlohmann/json.hpp>
@@ -14,12 +15,6 @@ namespace patina {
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
 
 /// "sampling 1024" → {"sampling", "1024"}; a name without a number is a family of its own.
 std::pair<std::string, std::string> family_and_setting(const std::string& method) {

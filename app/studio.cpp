@@ -75,7 +75,8 @@ RenderTarget& Studio::target_of(glm::ivec2 size_px) {
     return *target_;
 }
 
-Image Studio::picture_in_parts(Scene scene, glm::ivec2 size_px, bool radiance, Reuse reuse) {
+Image Studio::picture(Scene scene, glm::ivec2 size_px, bool radiance, Reuse reuse) {
+    if (is_reference(scene.view)) return read(*draw_reference(scene, size_px), radiance);
     Image whole = make_image(size_px.x, size_px.y, 3, radiance ? PixelType::F32 : PixelType::U8);
     const int rows = Renderer::rows_at_once(scene, size_px);
     for (int top = size_px.y; top > 0; top -= rows) {
@@ -94,11 +95,6 @@ Image Studio::picture_in_parts(Scene scene, glm::ivec2 size_px, bool radiance, R
                           whole.bytes.begin() + std::ptrdiff_t(row_bytes * std::size_t(size_px.y - top)));
     }
     return whole;
-}
-
-Image Studio::picture(const Scene& scene, glm::ivec2 size_px, bool radiance, Reuse reuse) {
-    if (is_reference(scene.view)) return read(*draw_reference(scene, size_px), radiance);
-    return picture_in_parts(scene, size_px, radiance, reuse);
 }
 
 ImageMetadata described(const std::string& what) {

@@ -18,12 +18,11 @@ struct Studio {
     /// Says notes on standard error and shows progress where a person watches.
     Studio(const Registry& registry, const SceneOptions& options);
     /// Drawn in parts where that takes less room. The reference says how well it is known.
-    Image picture(const Scene& scene, glm::ivec2 size_px, bool radiance, Reuse reuse = Reuse::Within);
+    Image picture(Scene scene, glm::ivec2 size_px, bool radiance, Reuse reuse = Reuse::Within);
 
 private:
     Image read(const RenderTarget& target, bool radiance);
     RenderTarget& target_of(glm::ivec2 size_px);
-    Image picture_in_parts(Scene scene, glm::ivec2 size_px, bool radiance, Reuse reuse);
     TargetHandle draw_reference(const Scene& scene, glm::ivec2 size_px);
     TargetHandle target_;
     int samples_;   ///< points a pixel of the reference

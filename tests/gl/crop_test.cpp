@@ -84,7 +84,9 @@ TEST(Crop, is_shaded_from_its_fragments_as_while_rasterising) {
     const WorkLedger after = renderer().work();
     const bool is_software = after.views_from_surfaces > before.views_from_surfaces;
     EXPECT_EQ(after.views_drawn, before.views_drawn + 2);
-    if (is_software) EXPECT_EQ(after.surfaces_rasterised, before.surfaces_rasterised + 2) << "none is kept";
+    if (is_software) {
+        EXPECT_EQ(after.surfaces_rasterised, before.surfaces_rasterised + 2) << "none is kept";
+    }
     EXPECT_EQ(apart.bytes, again.bytes);
     const Image at_once = drawn(scene, {96, 32});
     for (int y = 0; y < 32; ++y)
