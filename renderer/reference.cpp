@@ -15,7 +15,8 @@ namespace patina {
 namespace {
 
 constexpr int kReplicates = ReferenceTarget::kReplicates;
-constexpr int kMostAtOnce = 16;  ///< points of a slice, each of which sees the pixel's area at one place
+static_assert(kReplicates == 8, "as index_in_hand deals them");
+constexpr int kMostAtOnce = 64;  ///< points of a slice, each of which sees the pixel's area at one place
 constexpr int kMostOfMiddle = 256;
 static_assert(LightSampler::kMostCells == blocks::kLightCells);
 constexpr float kWeightOfOne = 1.0f / 4096.0f;
@@ -32,13 +33,6 @@ struct Place {
     int count = 1;
 };
 
-/// Replicates are consecutive runs of one sequence, each as long as it can become, a power of two: each is as
-/// evenly spread as a sequence of its own, and complete they are one even set together. Their mean is then
-/// nearer to the truth than their scatter says, never farther.
-std::uint32_t sequence_index(int replicate, int point, int longest) {
-    return std::uint32_t(replicate) * std::bit_ceil(std::uint32_t(longest)) + std::uint32_t(point);
-}
-
 int longest_of(const ReferenceOptions& options) {
     return (options.max_samples + kReplicates - 1) / kReplicates;
 }
@@ -49,7 +43,7 @@ gl::SlicePoints make_points(const LightSampler& light, const Place& place, const
     for (std::size_t k = 0; k < light.cells().size() && light.total() > 0.0; ++k)
         points.reflection[k / 4][int(k % 4)] = float(light.cells()[k].light / light.total());
     for (int i = 0; i < place.count; ++i) {
-        const std::uint32_t index = sequence_index(place.replicate, place.first + i, longest_of(options));
+        const std::uint32_t index = index_in_hand(std::uint32_t(place.first + i), place.replicate);
         const glm::dvec3 u = scrambled_sobol(index, seed_of(options.seed, Light));
         for (int k = 0; k < int(light.cells().size()); ++k) {
             const LightSample sample = light.sample(k, {u.x, u.y});
@@ -107,8 +101,7 @@ struct Reference::State {
 
     int most_at_once() const;
     int count_at_once() const;
-    /// A row of the next slice: its points, and as much as ten for what is done once.
-    double work_of_row() const { return next.count + 10.0; }
+    double work_of(int count) const;
     int rows_within(double seconds) const;
     glm::vec2 jitter_px() const;
     void begin();
@@ -125,18 +118,22 @@ int Reference::State::most_at_once() const {
     return std::min(share, options.pixel_filter ? kMostAtOnce : kMostOfMiddle);
 }
 
-/// By the clock first one, so that there is soon a picture; then as many as there are already.
+/// Where pixels may rest, later about half as many as there are already, so that it is soon judged and the
+/// places in the pixel keep up; by the clock first one, so that there is soon a picture.
 int Reference::State::count_at_once() const {
     const int most = most_at_once();
-    if (!by_clock) return most;
+    if (options.tolerance <= 0.0 && !by_clock) return most;
+    const auto half = int(std::bit_floor(std::uint32_t(next.first) / 2));
+    if (!by_clock || next.first > 16) return std::min(most, std::max(half, 16));
     return std::min(most, next.first == 0 ? 1 : next.first == 1 ? 3 : next.first);
 }
 
 /// Shuffled: each place of the pixel is to see all kinds of directions.
 glm::vec2 Reference::State::jitter_px() const {
     if (!options.pixel_filter) return glm::vec2(0.0f);
-    const std::uint32_t index = sequence_index(next.replicate, round, longest_of(options));
-    const glm::dvec3 u = shuffled_sobol(index, seed_of(options.seed, Pixel));
+    const std::uint64_t seed = seed_of(options.seed, Pixel);
+    const std::uint32_t block = shuffled_index(8 * std::uint32_t(round), seed) / 8;
+    const glm::dvec3 u = scrambled_sobol(index_in_hand(block, next.replicate), seed);
     return glm::vec2(glm::dvec2(u.x, u.y) - 0.5);
 }
 
@@ -248,7 +245,7 @@ void Reference::State::draw(int count) {
     }
     round_ended = false;
     if (rows == 0) {
-        if (progress.samples == 0 && next.replicate == 0) renderer.draw_reference_cells(scene, target);
+        if (progress.samples == 0 && next.replicate == 0) renderer.prepare_reference(scene, target);
         gl::set_reference_points(target, make_points(*light, next, options));
     }
     const int end = std::min(rows + count, target.size.y);
@@ -270,12 +267,19 @@ void Reference::draw() {
     if (!state.progress.done && state.light) state.draw(state.target.size.y);
 }
 
-/// As many as take half the time, so that there is room for another step that takes longer. Each rasterises
-/// the mesh: many small ones would do little else.
+/// Of so many rows of the slice that is next: their points, and as much as six of them for what is found once
+/// a row; a slice begins with the whole mesh, which takes as much again.
+double Reference::State::work_of(int count) const {
+    constexpr double once = 6.0;
+    return count * (next.count + once) + (rows == 0 ? target.size.y * once : 0.0);
+}
+
+/// Of the slice that is next; 0: not even a few.
 int Reference::State::rows_within(double seconds) const {
     const int fewest = (target.size.y + kMostSteps - 1) / kMostSteps;
     if (work_seconds <= 0.0) return 2 * fewest;
-    return std::clamp(int(0.5 * seconds / (work_seconds * work_of_row())), fewest, target.size.y);
+    const double fitting = (seconds / work_seconds - work_of(0)) / (work_of(1) - work_of(0));
+    return fitting < fewest ? 0 : int(std::min(fitting, double(target.size.y)));
 }
 
 void Reference::draw_for(double seconds) {
@@ -288,9 +292,11 @@ void Reference::draw_for(double seconds) {
     for (bool first = true; !state.progress.done; first = false, before = after) {
         if (!first && state.judgement_due()) return;  // which takes a while, too
         const bool judges = state.judgement_due();
-        const int rows = std::min(state.rows_within(seconds), state.target.size.y - state.rows);
-        const double work = double(rows) * state.work_of_row();
-        if (!first && before + work * state.work_seconds > seconds) return;
+        int rows = state.rows_within(seconds - before);
+        if (rows == 0 && !first) return;
+        rows =
+            std::min(std::max(rows, state.target.size.y / kMostSteps + 1), state.target.size.y - state.rows);
+        const double work = state.work_of(rows);
         state.draw(rows);
         gl::wait_for_gpu();
         after = seconds_of(begin);

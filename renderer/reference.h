@@ -7,8 +7,9 @@
 // covered by their share. As in the other modes the object neither shadows nor reflects itself, and an
 // occlusion map scales the light of the environment, while emission is added as it is.
 //
-// How: eight replicates grow side by side along runs of an Owen-scrambled Sobol sequence, each an unbiased
-// estimate; their scatter gives the confidence interval. Each slice of a few points sees all pixels at one
+// How: eight replicates grow side by side, dealt out of one Owen-scrambled Sobol sequence, each an unbiased
+// estimate; their scatter gives the confidence interval, on the safe side, since together they are more even
+// than eight of their own would be. Each slice of a few points sees all pixels at one
 // place of their area; what a pixel reflects of the light's cells, by which it draws from them, is found once
 // for its middle. Same scene, same options, same bytes. With a tolerance, pixels rest whose whole
 // neighbourhood is known well enough, at first to a few percent, in the end to the tolerance: the few that

@@ -227,14 +227,14 @@ double Renderer::timed_draw(const Scene& scene, RenderTarget& target) {
 
 void Renderer::draw_reference(const Scene& scene, ReferenceTarget& target, const ReferenceSlice& slice) {
     const gl::KeepDrawState keep;
-    Scene shown = scene;
-    if (!scene.environment) shown.view.background = Background::Plain;
-    state_->draw_reference(shown, scene.environment ? *scene.environment : *state_->darkness, target, slice);
+    state_->draw_reference(scene, scene.environment ? *scene.environment : *state_->darkness, target, slice);
 }
 
-void Renderer::draw_reference_cells(const Scene& scene, ReferenceTarget& target) {
+void Renderer::prepare_reference(const Scene& scene, ReferenceTarget& target) {
     const gl::KeepDrawState keep;
-    state_->draw_reference_cells(scene, scene.environment ? *scene.environment : *state_->darkness, target);
+    Scene shown = scene;
+    if (!scene.environment) shown.view.background = Background::Plain;
+    state_->prepare_reference(shown, scene.environment ? *scene.environment : *state_->darkness, target);
 }
 
 void Renderer::show(const View& view, const RenderTarget& target) {

@@ -135,8 +135,8 @@ public:
         glm::vec2 jitter_px{0.0f};  ///< −½…½
     };
     void draw_reference(const Scene& scene, ReferenceTarget& target, const ReferenceSlice& slice);
-    /// Before the first of them: what the pixels reflect of the light's cells.
-    void draw_reference_cells(const Scene& scene, ReferenceTarget& target);
+    /// Before the first of them: what the pixels reflect of the light's cells, and what is behind the mesh.
+    void prepare_reference(const Scene& scene, ReferenceTarget& target);
     /// The display picture of what the target's radiance holds.
     void show(const View& view, const RenderTarget& target);
 

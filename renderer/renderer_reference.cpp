@@ -1,5 +1,6 @@
 // A slice of the reference picture: the mesh is rasterised once, moved within the pixel, and what lies there
-// is shaded densely: software renderers shade the edges of small triangles several times over.
+// is shaded densely, a few rows after the other: software renderers shade the edges of small triangles
+// several times over.
 #include "renderer/gl/reference.h"
 #include "renderer/renderer_state.h"
 
@@ -17,8 +18,8 @@ Features Renderer::State::begin_reference(const Scene& scene, const GpuEnvironme
     move_picture(frame, 2.0f * slice.jitter_px / glm::vec2(target.size));
     const float exposure = frame.camera_position.w;
     set_switches();
-    gl::begin_reference_surface(target, kind_of(features & kMaps), slice.rows);
-    if (scene.mesh)
+    if (slice.rows.x == 0) gl::begin_reference_surface(target, kind_of(features & kMaps));
+    if (scene.mesh && slice.rows.x == 0)
         rasterise(scene, frame, features & kMaps);
     else
         upload_block(frame_rows, gl::kFrameSlot, frame);
@@ -27,12 +28,17 @@ Features Renderer::State::begin_reference(const Scene& scene, const GpuEnvironme
     return features;
 }
 
-void Renderer::State::draw_reference_cells(const Scene& scene, const GpuEnvironment& environment,
-                                           ReferenceTarget& target) {
+void Renderer::State::prepare_reference(const Scene& scene, const GpuEnvironment& environment,
+                                        ReferenceTarget& target) {
     const Features features = begin_reference(scene, environment, target, {.rows = {0, target.size.y}});
     gl::begin_reference_cells(target);
     if (scene.mesh) {
         gl::draw_all(cells_of(features).name(), nothing.name(), {0, 0, target.size});
+        count_draw(1);
+    }
+    if (scene.view.background != Background::Plain) {
+        gl::begin_reference_background(target);
+        draw_background(scene.view.background);
         count_draw(1);
     }
     gl::end_reference_slice();
@@ -41,17 +47,12 @@ void Renderer::State::draw_reference_cells(const Scene& scene, const GpuEnvironm
 void Renderer::State::draw_reference(const Scene& scene, const GpuEnvironment& environment,
                                      ReferenceTarget& target, const ReferenceSlice& slice) {
     const Features features = begin_reference(scene, environment, target, slice);
-    gl::begin_reference_slice(target, slice.replicate, slice.weight);
+    gl::begin_reference_slice(target, slice.replicate, slice.weight, slice.rows);
     if (scene.mesh) {
         const gl::Program& program = reference(features);
         glUseProgram(program.name());
         glUniform1i(glGetUniformLocation(program.name(), "reference_points"), slice.points);
         gl::draw_all(program.name(), nothing.name(), {0, 0, target.size});
-        count_draw(1);
-    }
-    gl::begin_reference_background();
-    if (scene.view.background != Background::Plain) {
-        draw_background(scene.view.background);
         count_draw(1);
     }
     work.reference_points += std::uint64_t(slice.points);

@@ -101,7 +101,7 @@ struct Renderer::State {
     /// The slice's surface, and what its shading reads but for the target's own.
     Features begin_reference(const Scene& scene, const GpuEnvironment& environment, ReferenceTarget& target,
                              const ReferenceSlice& slice);
-    void draw_reference_cells(const Scene& scene, const GpuEnvironment& environment, ReferenceTarget& target);
+    void prepare_reference(const Scene& scene, const GpuEnvironment& environment, ReferenceTarget& target);
     void draw_reference(const Scene& scene, const GpuEnvironment& environment, ReferenceTarget& target,
                         const ReferenceSlice& slice);
 

@@ -143,6 +143,7 @@ void bind_interface(GLuint program) {
         {"first_reflected_cells", kFirstReflectedCellsUnit},
         {"last_reflected_cells", kLastReflectedCellsUnit},
         {"fragment_of_pixel", kFragmentOfPixelUnit},
+        {"picture_behind", kPictureBehindUnit},
         {"fragments_of_samples", kFragmentsOfSamplesUnit},
     };
     GLint previous = 0;

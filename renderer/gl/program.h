@@ -60,6 +60,7 @@ inline constexpr GLuint kSlicePointsUnit = 14;
 inline constexpr GLuint kFirstReflectedCellsUnit = kLevelsUnit;     ///< which it does not read
 inline constexpr GLuint kLastReflectedCellsUnit = kIrradianceUnit;  ///< likewise
 inline constexpr GLuint kFragmentOfPixelUnit = 4;                   ///< beside the picture
+inline constexpr GLuint kPictureBehindUnit = 4;                     ///< likewise
 inline constexpr GLuint kFragmentsOfSamplesUnit = 5;                ///< likewise
 inline constexpr GLuint kPictureUnit = 0;                           ///< what the display pass reads
 inline constexpr GLuint kFrameSlot = 0;                             ///< uniform buffer binding of FrameBlock

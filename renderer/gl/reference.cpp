@@ -48,6 +48,10 @@ void make_textures(ReferenceTarget& target) {
     glBindTexture(GL_TEXTURE_2D, target.sum.name());
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, size.x, size.y, 0, GL_RGBA, GL_FLOAT, nullptr);
     no_filter(GL_TEXTURE_2D);
+    target.behind = Texture::make();
+    glBindTexture(GL_TEXTURE_2D, target.behind.name());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, size.x, size.y, 0, GL_RGBA, GL_FLOAT, nullptr);
+    no_filter(GL_TEXTURE_2D);
     target.replicates = Texture::make();
     glBindTexture(GL_TEXTURE_2D_ARRAY, target.replicates.name());
     glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_R32F, size.x, size.y, ReferenceTarget::kReplicates, 0, GL_RED,
@@ -77,6 +81,10 @@ void make_framebuffers(ReferenceTarget& target) {
         glDrawBuffers(2, both);
         require_complete(target.size);
     }
+    target.behind_framebuffer = Framebuffer::make();
+    glBindFramebuffer(GL_FRAMEBUFFER, target.behind_framebuffer.name());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.behind.name(), 0);
+    require_complete(target.size);
     target.cells_framebuffer = Framebuffer::make();
     glBindFramebuffer(GL_FRAMEBUFFER, target.cells_framebuffer.name());
     for (GLuint i = 0; i < 2; ++i)
@@ -110,16 +118,20 @@ void clear_reference(ReferenceTarget& target) {
     const KeepDrawState keep;
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDisable(GL_SCISSOR_TEST);
+    const GLfloat black[] = {0.0f, 0.0f, 0.0f, 0.0f};
     for (const Framebuffer& framebuffer : target.framebuffers) {
         glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-        const GLfloat black[] = {0.0f, 0.0f, 0.0f, 0.0f};
         glClearBufferfv(GL_COLOR, 0, black);
         glClearBufferfv(GL_COLOR, 1, black);
     }
+    glBindFramebuffer(GL_FRAMEBUFFER, target.behind_framebuffer.name());
+    glClearBufferfv(GL_COLOR, 0, black);
 }
 
 void set_reference_counts(ReferenceTarget& target, const std::vector<float>& counts) {
     const KeepTextureBindings keep;
+    target.rests = false;
+    for (std::size_t i = 1; i < counts.size(); i += 2) target.rests = target.rests || counts[i] == 0.0f;
     glBindTexture(GL_TEXTURE_2D, target.counts.name());
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, target.size.x, target.size.y, GL_RG, GL_FLOAT, counts.data());
 }
@@ -171,18 +183,10 @@ void set_reference_points(ReferenceTarget& target, const SlicePoints& points) {
     fill(target.light_points, points.light);
 }
 
-void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps, glm::ivec2 rows) {
-    if (!target.surface.fits(target.size, 1, maps)) {
-        target.surface.make(target.size, 1, maps);
-        for (const Framebuffer& framebuffer : target.framebuffers) {
-            glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-            target.surface.share_depth();
-            require_complete(target.size);
-        }
-    }
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(0, rows.x, target.size.x, rows.y - rows.x);
+void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps) {
+    if (!target.surface.fits(target.size, 1, maps)) target.surface.make(target.size, 1, maps);
     target.surface.begin();
+    if (!target.rests) return;
     bind_texture(kFragmentPlacesUnit, GL_TEXTURE_2D, target.counts);
     glDepthFunc(GL_ALWAYS);
     glUseProgram(target.resting.name());
@@ -198,7 +202,7 @@ void begin_reference_cells(const ReferenceTarget& target) {
     glDisable(GL_DEPTH_TEST);
 }
 
-void begin_reference_slice(const ReferenceTarget& target, int replicate, float weight) {
+void begin_reference_slice(const ReferenceTarget& target, int replicate, float weight, glm::ivec2 rows) {
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffers[replicate].name());
     target.surface.bind_layers();
     bind_texture(kLightTexelsUnit, GL_TEXTURE_RECTANGLE, target.light_texels);
@@ -207,20 +211,20 @@ void begin_reference_slice(const ReferenceTarget& target, int replicate, float w
     bind_texture(kFirstReflectedCellsUnit, GL_TEXTURE_RECTANGLE, target.reflected_cells[0]);
     bind_texture(kLastReflectedCellsUnit, GL_TEXTURE_RECTANGLE, target.reflected_cells[1]);
     glBindBufferBase(GL_UNIFORM_BUFFER, kCellSlot, target.cells.name());
-    glDepthMask(GL_FALSE);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, rows.x, target.size.x, rows.y - rows.x);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE);
     glBlendColor(0.0f, 0.0f, 0.0f, weight);
 }
 
-void begin_reference_background() {
-    glColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    glEnable(GL_DEPTH_TEST);
+void begin_reference_background(const ReferenceTarget& target) {
+    glBindFramebuffer(GL_FRAMEBUFFER, target.behind_framebuffer.name());
+    glDisable(GL_DEPTH_TEST);
 }
 
 void end_reference_slice() {
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glBlendFunc(GL_ONE, GL_ZERO);
     glBlendColor(0.0f, 0.0f, 0.0f, 0.0f);
     glDisable(GL_BLEND);
@@ -238,6 +242,7 @@ void write_reference_mean(const ReferenceTarget& target, const GatheredPoints& p
     glUseProgram(target.mean.name());
     bind_texture(kPictureUnit, GL_TEXTURE_2D, target.sum);
     bind_texture(kFragmentPlacesUnit, GL_TEXTURE_2D, target.counts);
+    bind_texture(kPictureBehindUnit, GL_TEXTURE_2D, target.behind);
     glUniform3f(glGetUniformLocation(target.mean.name(), "reference_weight"), float(points.all), weight,
                 largest_radiance(to));
     glUniform2f(glGetUniformLocation(target.mean.name(), "reference_rows"), float(points.rows),

@@ -25,6 +25,7 @@ struct ReferenceTarget {
     static constexpr int kReplicates = 8;
     glm::ivec2 size{1};
     gl::Texture sum;           ///< of all replicates, slices by their weights; alpha: coverage likewise
+    gl::Texture behind;        ///< what the mesh leaves free shows; alpha 0: nothing
     gl::Texture replicates;    ///< one layer each: likewise, the mean of the three channels, the mesh only
     gl::Texture counts;        ///< two a pixel: points before the counts were set; 1: it gathers, 0: it rests
     gl::Buffer cells;          ///< blocks.h's CellBlock
@@ -33,7 +34,9 @@ struct ReferenceTarget {
     BufferTexture light_points;
     std::array<gl::Texture, 2> reflected_cells;  ///< as reference_cells.frag.glsl leaves them; rectangles
     gl::Framebuffer cells_framebuffer;           ///< of these
-    gl::SurfaceScratch surface;                  ///< what the slice's picture shows
+    gl::Framebuffer behind_framebuffer;
+    bool rests = false;                                     ///< some pixel does
+    gl::SurfaceScratch surface;                             ///< what the slice's picture shows
     std::array<gl::Framebuffer, kReplicates> framebuffers;  ///< sum and one replicate
     gl::Program mean, resting;
     gl::VertexArray nothing;
@@ -58,15 +61,15 @@ struct SlicePoints {
 };
 void set_reference_points(ReferenceTarget& target, const SlicePoints& points);
 
-/// Between begin and end the mesh's material is drawn into target.surface. rows: to which all is kept until
-/// the slice ends; from, to.
-void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps, glm::ivec2 rows);
+/// The mesh's material is then drawn into target.surface, where it stays until the next one.
+void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps);
 /// After the surface, what is drawn finds out what each pixel reflects of the light's cells.
 void begin_reference_cells(const ReferenceTarget& target);
-/// Between begin and end what is drawn is added to the sum, weight (0…1) times: the surface, in a replicate
-/// too; then what is behind it, at its depth.
-void begin_reference_slice(const ReferenceTarget& target, int replicate, float weight);
-void begin_reference_background();
+/// Then, what is behind the mesh.
+void begin_reference_background(const ReferenceTarget& target);
+/// Between begin and end what is drawn in those rows (from, to) is added to the sum and a replicate, weight
+/// (0…1) times.
+void begin_reference_slice(const ReferenceTarget& target, int replicate, float weight, glm::ivec2 rows);
 void end_reference_slice();
 
 /// Of a pixel since the counts were set: all have so many, the first rows more.

@@ -236,10 +236,6 @@ void SurfaceScratch::bind_layers() const {
         if (layers_[i]) bind_texture(kFirstStoredUnit + GLuint(i), GL_TEXTURE_2D, layers_[i]);
 }
 
-void SurfaceScratch::share_depth() const {
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.name());
-}
-
 std::vector<float> SurfaceScratch::read_fragments(const SurfacePrograms& programs) {
     if (!ids_) {
         ids_ = make_texture(GL_RGBA32F, size_px_, {GL_RGBA, GL_FLOAT}, nullptr);

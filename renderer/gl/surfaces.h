@@ -55,8 +55,6 @@ public:
     void begin_rays() const;
     /// What was drawn, as it lies there, for shaders to read. Precondition: one sample.
     void bind_layers() const;
-    /// Its depth becomes that of the framebuffer that is bound, which has the same size and samples.
-    void share_depth() const;
     /// Sorts what was drawn. old: one that nobody needs any more, whose room is used again where it fits.
     GpuSurfaces finish(const SurfacePrograms& programs, GpuSurfaces old);
 

@@ -1,5 +1,6 @@
 // Owen-scrambled Sobol points in three dimensions: every aligned run of 2^k of them is spread as evenly as
-// can be, and each scramble is an independent, unbiased set. Pure.
+// can be, each scramble is an independent, unbiased set, and a fourth dimension deals them out to eight.
+// Pure.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -17,8 +18,8 @@ inline std::uint64_t mix_bits(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-/// Sobol's sequence with the direction numbers of Joe & Kuo 2008: x^1 (m = 1) and x² + x + 1 (m = 1, 3) after
-/// van der Corput's.
+/// Sobol's sequence in four dimensions with the direction numbers of Joe & Kuo 2008: x^1 (m = 1), x² + x + 1
+/// (m = 1, 3) and x³ + x + 1 (m = 1, 3, 1) after van der Corput's.
 inline std::uint32_t sobol_bits(std::uint32_t index, int dimension) {
     std::uint32_t direction[32];
     for (int i = 0; i < 32; ++i) {
@@ -26,10 +27,15 @@ inline std::uint32_t sobol_bits(std::uint32_t index, int dimension) {
             direction[i] = 1u << (31 - i);
         else if (dimension == 1)
             direction[i] = i == 0 ? 1u << 31 : direction[i - 1] ^ (direction[i - 1] >> 1);
-        else
+        else if (dimension == 2)
             direction[i] = i == 0   ? 1u << 31
                            : i == 1 ? 3u << 30
                                     : direction[i - 1] ^ direction[i - 2] ^ (direction[i - 2] >> 2);
+        else
+            direction[i] = i == 0   ? 1u << 31
+                           : i == 1 ? 3u << 30
+                           : i == 2 ? 1u << 29
+                                    : direction[i - 2] ^ direction[i - 3] ^ (direction[i - 3] >> 3);
     }
     std::uint32_t bits = 0;
     for (int i = 0; index != 0; ++i, index >>= 1)
@@ -56,11 +62,20 @@ inline glm::dvec3 scrambled_sobol(std::uint32_t index, std::uint64_t seed) {
     return point;
 }
 
-/// The same points in an order that is shuffled, aligned runs of 2^k to aligned runs. In Sobol's own order
-/// the digits of a point say which of the sequence it is: two sequences side by side would meet in few of
-/// their combinations.
-inline glm::dvec3 shuffled_sobol(std::uint32_t index, std::uint64_t seed) {
-    return scrambled_sobol(owen_scrambled(index, mix_bits(seed)), seed);
+/// A place of the sequence in another order, aligned runs of 2^k to aligned runs. In Sobol's own order the
+/// digits of a point say which of the sequence it is: two sequences side by side would meet in few of their
+/// combinations.
+inline std::uint32_t shuffled_index(std::uint32_t index, std::uint64_t seed) {
+    return owen_scrambled(index, mix_bits(seed));
+}
+
+/// Deals a sequence out to eight hands: of its points 8 block … 8 block + 7 that one which lies in the hand's
+/// eighth of a fourth dimension. Each hand is spread evenly by itself, and all eight are together the
+/// sequence's first points, however many each holds; their mean errs less than that of eight sequences.
+inline std::uint32_t index_in_hand(std::uint32_t block, int hand) {
+    std::uint32_t index = 8 * block;
+    while (sobol_bits(index, 3) >> 29 != std::uint32_t(hand)) ++index;
+    return index;
 }
 
 }  // namespace patina

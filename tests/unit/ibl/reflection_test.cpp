@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -96,6 +97,10 @@ TEST(LowDiscrepancy, points_fill_every_elementary_interval_once) {
     }
 }
 
+glm::dvec3 shuffled_sobol(std::uint32_t index, std::uint64_t seed) {
+    return scrambled_sobol(shuffled_index(index, seed), seed);
+}
+
 TEST(LowDiscrepancy, shuffled_points_are_as_even_and_meet_all_others) {
     for (int first = 0; first < 128; first += 64) {
         std::set<std::pair<int, int>> cells;
@@ -114,6 +119,50 @@ TEST(LowDiscrepancy, shuffled_points_are_as_even_and_meet_all_others) {
     };
     EXPECT_GT(together(scrambled_sobol), 0.99) << "no need to shuffle";
     EXPECT_LT(together(shuffled_sobol), 0.2);
+}
+
+TEST(LowDiscrepancy, eight_hands_hold_the_whole_sequence_and_each_is_even) {
+    constexpr int points = 64;
+    std::set<std::uint32_t> all;
+    for (int hand = 0; hand < 8; ++hand) {
+        std::array<std::array<int, 16>, 3> filled{};
+        std::array<std::array<int, 4>, 4> squares{};
+        for (int i = 0; i < points; ++i) {
+            const std::uint32_t index = index_in_hand(std::uint32_t(i), hand);
+            EXPECT_EQ(index / 8, std::uint32_t(i));
+            all.insert(index);
+            const glm::dvec3 u = scrambled_sobol(index, 7);
+            for (int d = 0; d < 3; ++d) ++filled[d][std::size_t(u[d] * 16)];
+            ++squares[std::size_t(u.x * 4)][std::size_t(u.y * 4)];
+        }
+        for (const auto& row : filled)
+            for (const int count : row) EXPECT_EQ(count, points / 16) << hand;
+        for (const auto& row : squares)
+            for (const int count : row) EXPECT_NEAR(count, points / 16, 2) << hand;
+    }
+    EXPECT_EQ(all.size(), 8u * points);
+}
+
+TEST(LowDiscrepancy, eight_hands_err_less_together_than_their_scatter_says) {
+    // Half of a cube, cut slantwise, as a lamp's border cuts what is reflected.
+    const auto cut = [](glm::dvec3 u) { return u.x + 0.7 * u.y + 0.4 * u.z < 1.05 ? 1.0 : 0.0; };
+    for (const int points : {24, 64, 200}) {
+        double error2 = 0.0, told2 = 0.0;
+        constexpr int seeds = 200;
+        for (int seed = 0; seed < seeds; ++seed) {
+            double mean = 0.0, squares = 0.0;
+            for (int hand = 0; hand < 8; ++hand) {
+                double sum = 0.0;
+                for (int i = 0; i < points; ++i)
+                    sum += cut(scrambled_sobol(index_in_hand(std::uint32_t(i), hand), std::uint64_t(seed)));
+                mean += sum / points / 8;
+                squares += sum / points * sum / points / 8;
+            }
+            error2 += (mean - 0.5) * (mean - 0.5);
+            told2 += (squares - mean * mean) / 7;
+        }
+        EXPECT_LT(std::sqrt(error2 / told2), 0.8) << points;
+    }
 }
 
 }  // namespace
