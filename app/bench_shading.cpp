@@ -45,8 +45,8 @@ std::vector<Way> ways() {
     };
     add_mode(Shading::SplitSum, "split-sum");
     add_mode(Shading::Course, "course");
-    add_mode(Shading::Fitted, "fitted, one tap");
-    list.push_back({"fitted, three taps", [](Renderer& renderer, Scene scene, RenderTarget& target) {
+    add_mode(Shading::Fitted, "fitted");
+    list.push_back({"fitted, high quality", [](Renderer& renderer, Scene scene, RenderTarget& target) {
                         scene.view.quality = Quality::High;
                         renderer.draw(scene, target);
                     }});

@@ -54,6 +54,7 @@ void decode(LightTask& task) {
     task.ready.decoded = true;
     if (!loaded.baked || task.order.held) return;
     task.held.exact = std::move(*loaded.baked);
+    task.held.exact.levels = close_gaps(std::move(task.held.exact.levels));
     task.held.is_whole = task.ready.from_disk = true;
 }
 

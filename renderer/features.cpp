@@ -21,7 +21,7 @@ constexpr std::pair<Feature, const char*> kDefines[] = {
     {Feature::Course, "HAS_COURSE"},
     {Feature::Debug, "HAS_DEBUG"},
     {Feature::Fitted, "HAS_FITTED"},
-    {Feature::ThreeTaps, "HAS_THREE_TAPS"},
+    {Feature::FourLevels, "HAS_FOUR_LEVELS"},
 };
 constexpr Features kAll = (1u << 12) - 1;
 
@@ -32,8 +32,8 @@ Features completed(Features features) {
     if (has(features, Feature::RoughnessMap)) features |= Features(Feature::Sharp);
     if (has(features, Feature::EmissionMap)) features |= Features(Feature::Emission);
     if (has(features, Feature::Course))
-        features &= ~(Features(Feature::Fitted) | Features(Feature::ThreeTaps));
-    if (!has(features, Feature::Fitted)) features &= ~Features(Feature::ThreeTaps);
+        features &= ~(Features(Feature::Fitted) | Features(Feature::FourLevels));
+    if (!has(features, Feature::Fitted)) features &= ~Features(Feature::FourLevels);
     return features;
 }
 
@@ -60,7 +60,7 @@ Features features_of(const Material& material, const std::bitset<kMapSlots>& bou
     add(material.roughness.value < reach * sharpest_roughness, Feature::Sharp);
     add(view.shading == Shading::Course, Feature::Course);
     add(fitted, Feature::Fitted);
-    add(fitted && view.quality == Quality::High, Feature::ThreeTaps);
+    add(fitted && view.quality == Quality::High, Feature::FourLevels);
     add(view.debug != DebugView::Final, Feature::Debug);
     return completed(features);
 }

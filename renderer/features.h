@@ -22,11 +22,11 @@ enum class Feature : Features {
     NormalMap = 1u << 4,
     EmissionMap = 1u << 5,  ///< implies Emission
     Emission = 1u << 6,
-    Sharp = 1u << 7,       ///< roughness may be too low for the levels alone; a roughness map implies it
-    Course = 1u << 8,      ///< the lecture's formulas
-    Debug = 1u << 9,       ///< one ingredient instead of the picture; implies Sharp and Emission
-    Fitted = 1u << 10,     ///< fitted lobes; excludes Course
-    ThreeTaps = 1u << 11,  ///< three of them; implies Fitted
+    Sharp = 1u << 7,        ///< roughness may be too low for the levels alone; a roughness map implies it
+    Course = 1u << 8,       ///< the lecture's formulas
+    Debug = 1u << 9,        ///< one ingredient instead of the picture; implies Sharp and Emission
+    Fitted = 1u << 10,      ///< fitted lobes; excludes Course
+    FourLevels = 1u << 11,  ///< of four levels instead of three; implies Fitted
 };
 
 inline bool has(Features features, Feature feature) { return (features & Features(feature)) != 0; }

@@ -26,8 +26,8 @@ gl::Texture make_brdf_texture() {
     return texture;
 }
 
-/// Pairs of slices, F0 = 1 first: the one tap, and the irradiance's weight beside it and beside three; two of
-/// three taps; the third and the weights of the second and third.
+/// Pairs of slices, F0 = 1 first: the sweep over three levels; that over four; the lean of the latter's
+/// weights.
 gl::Texture make_lobe_texture() {
     constexpr int size = kLobeTableSize;
     std::vector<glm::vec4> texels(std::size_t(6) * size * size);
@@ -37,10 +37,12 @@ gl::Texture make_lobe_texture() {
             const auto put = [&](int slice, glm::vec4 texel) {
                 texels[std::size_t(slice + metal) * size * size + i] = texel;
             };
-            const auto& taps = node.three;
-            put(0, {node.one.kappa, node.one.log2_ratio, node.one_irradiance, node.three_irradiance});
-            put(2, {taps[0].kappa, taps[0].log2_ratio, taps[1].kappa, taps[1].log2_ratio});
-            put(4, {taps[2].kappa, taps[2].log2_ratio, node.second_weight, node.third_weight});
+            const auto put_sweep = [&](int slice, const LobeSweep& sweep) {
+                put(slice, {sweep.log2_ratio, sweep.kappa, sweep.slope, sweep.irradiance});
+            };
+            put_sweep(0, node.three);
+            put_sweep(2, node.four);
+            put(4, {node.four.lean, 0.0f, 0.0f});
         }
     }
     const gl::KeepTextureBindings keep;

@@ -57,6 +57,7 @@ void set_levels(blocks::FrameBlock& block, const LightLayout& light) {
         block.level_offset[i / 4][i % 4] = -position(i) / length;
     }
     const float sharpest = std::max(light.sharpest, 1e-6f);  // the shader divides by its square
+    block.level_ends = vec4(position(0), position(segments), 0.0f, 0.0f);
     block.level_layout = vec4(float(segments), float(light.layers), sharpest, sharpest * sharpest);
 }
 

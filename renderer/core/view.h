@@ -11,7 +11,7 @@
 namespace patina {
 
 enum class Shading { Course, SplitSum, Fitted, Reference };
-/// Of fitted shading: one tap of the environment and the irradiance, or three taps.
+/// Of fitted shading: lobes swept over three prefiltered levels, or over four.
 enum class Quality { Standard, High };
 enum class Tonemap { None, Neutral, Aces };
 enum class Background { Environment, Blurred, Plain };
@@ -71,9 +71,9 @@ inline constexpr std::array kShadings{
 };
 inline constexpr std::array kQualities{
     Named<Quality>{Quality::Standard, "standard", "Standard",
-                   "Fitted lobes with one look into the prefiltered light."},
+                   "Fitted lobes with three looks into the prefiltered light."},
     Named<Quality>{Quality::High, "high", "High",
-                   "Fitted lobes with three looks: closer to the integral, at four fifths more."},
+                   "Fitted lobes with four looks: closer to the integral, at a fifth more."},
 };
 inline constexpr std::array kTonemaps{
     Named<Tonemap>{Tonemap::None, "none", "None",

@@ -1,8 +1,10 @@
 #include "renderer/gl/light_levels.h"
 
+#include "renderer/brdf.h"
 #include "renderer/gl/panorama.h"
 #include "renderer/ibl/cube.h"
 #include "renderer/ibl/half_simd.h"
+#include "renderer/shaders/blocks.h"
 
 #include <glm/common.hpp>
 
@@ -51,6 +53,16 @@ glm::vec3 bilinear(const CubeMap& cube, int face, float x, float y) {
     return (1.0f - fy) * upper + fy * lower;
 }
 
+/// A share 0…1 of the second level's light, linear in the logarithm of roughness.
+PrefilteredLevel mixed(const PrefilteredLevel& a, const PrefilteredLevel& b, float share) {
+    const int size = std::max(a.cube.size, b.cube.size);
+    PrefilteredLevel level{a.roughness * std::pow(b.roughness / a.roughness, share), enlarged(a.cube, size)};
+    const CubeMap other = enlarged(b.cube, size);
+    for (std::size_t i = 0; i < level.cube.texels.size(); ++i)
+        level.cube.texels[i] = glm::mix(level.cube.texels[i], other.texels[i], share);
+    return level;
+}
+
 }  // namespace
 
 int layers_for(const std::vector<int>& sizes) {
@@ -73,6 +85,24 @@ CubeMap enlarged(const CubeMap& cube, int size) {
                 bilinear(cube, row / size, (float(x) + 0.5f) * ratio - 0.5f,
                          (float(row % size) + 0.5f) * ratio - 0.5f);
     return result;
+}
+
+std::vector<PrefilteredLevel> close_gaps(std::vector<PrefilteredLevel> levels) {
+    std::vector<PrefilteredLevel> closed;
+    closed.reserve(blocks::kMaxLevels);
+    int room = blocks::kMaxLevels - int(levels.size());
+    for (PrefilteredLevel& level : levels) {
+        if (!closed.empty()) {
+            const std::size_t last = closed.size() - 1;
+            const float steps = brdf::kLevelsPerOctave * std::log2(level.roughness / closed[last].roughness);
+            const int added = std::clamp(int(std::ceil(steps - 0.01f)) - 1, 0, std::max(room, 0));
+            for (int i = 1; i <= added; ++i)
+                closed.push_back(mixed(closed[last], level, float(i) / float(added + 1)));
+            room -= added;
+        }
+        closed.push_back(std::move(level));
+    }
+    return closed;
 }
 
 LightView view_of(const BakedEnvironment& baked) {

@@ -54,6 +54,11 @@ LightLevels make_light_levels(const BakedEnvironment& baked);
 /// layers with (first size >> k / layers) ≥ sizes[k] for all k.
 int layers_for(const std::vector<int>& sizes);
 
+/// Ascending levels with others between wherever two lie further apart than standard ones, mixed from both by
+/// the logarithm of roughness: lobes are fitted to that spacing (brdf.glsl, equation 3). No more than the
+/// shaders hold (blocks::kMaxLevels), sharp ones first.
+std::vector<PrefilteredLevel> close_gaps(std::vector<PrefilteredLevel> levels);
+
 /// The same light on faces of another size, bilinear across edges. Precondition: size ≥ cube.size.
 CubeMap enlarged(const CubeMap& cube, int size);
 

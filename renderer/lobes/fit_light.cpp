@@ -84,10 +84,7 @@ void add_environment(FitLight& light, const Environment& environment, int lane) 
     const LightExtraction extraction = extract_lights(environment, statistics, {});
     const float scale = 1.0f / std::max(brdf::luminance(glm::vec3(statistics.mean_color)), 1e-12f);
     if (light.levels.empty()) {
-        for (const PrefilteredLevel& level : baked.levels) {
-            light.roughness.push_back(level.roughness);
-            light.levels.emplace_back(level.cube.size);
-        }
+        for (const PrefilteredLevel& level : baked.levels) light.levels.emplace_back(level.cube.size);
         light.irradiance.emplace_back(baked.irradiance.size);
     }
     for (std::size_t k = 0; k < baked.levels.size(); ++k)
@@ -144,16 +141,19 @@ void LaneCube::add_to(Lanes& sum, glm::vec3 direction, float weight) const {
         sum[i] += a * upper[0][i] + b * upper[1][i] + c * lower[0][i] + d * lower[1][i];
 }
 
+void FitLight::add_level(Lanes& sum, glm::vec3 direction, int level, float weight) const {
+    levels[std::clamp(level, 0, int(levels.size()) - 1)].add_to(sum, direction, weight);
+}
+
 void FitLight::add_prefiltered(Lanes& sum, glm::vec3 direction, float log2_roughness, float weight) const {
-    float level = 0.0f;
-    for (std::size_t k = 0; k + 1 < roughness.size(); ++k) {
-        const float from = std::log2(roughness[k]), to = std::log2(roughness[k + 1]);
-        level += std::clamp((log2_roughness - from) / (to - from), 0.0f, 1.0f);
-    }
-    const int lower = std::min(int(level), int(roughness.size()) - 1);
-    const float share = level - float(lower);
-    levels[lower].add_to(sum, direction, weight * (1.0f - share));
-    if (share > 0.0f) levels[lower + 1].add_to(sum, direction, weight * share);
+    const float level = std::max(level_index(log2_roughness), 0.0f), lower = std::floor(level);
+    add_level(sum, direction, int(lower), weight * (1.0f - level + lower));
+    add_level(sum, direction, int(lower) + 1, weight * (level - lower));
+}
+
+float FitLight::level_index(float log2_roughness) {
+    static const float first = std::log2(standard_roughness_levels().front());
+    return brdf::kLevelsPerOctave * (log2_roughness - first);
 }
 
 void FitLight::add_filtered(Lanes& sum, glm::vec3 direction, double solid_angle, float weight) const {

@@ -45,14 +45,17 @@ struct FitLights {
 
 struct FitLight {
     int count = 0;                     ///< environments; further lanes hold zeros
-    std::vector<float> roughness;      ///< of the levels
-    std::vector<LaneCube> levels;      ///< without lights
+    std::vector<LaneCube> levels;      ///< the standard ones, without lights
     std::vector<LaneCube> irradiance;  ///< one: E/π, likewise
     std::vector<LaneCube> pyramid;     ///< the environments without lights, each level half the last
     std::vector<FitLights> lights;     ///< count of them
 
-    /// sum += weight · the levels' light, mixed as light.glsl does.
+    /// sum += weight · the light of one level; of the first or the last where there is none of that index.
+    void add_level(Lanes& sum, glm::vec3 direction, int level, float weight) const;
+    /// sum += weight · the levels' light, mixed linearly in log roughness as light.glsl does.
     void add_prefiltered(Lanes& sum, glm::vec3 direction, float log2_roughness, float weight) const;
+    /// Where a roughness lies among the levels, as level_index in light.glsl has it: 0 at 0.1, 15 at 1.
+    static float level_index(float log2_roughness);
     /// sum += weight · the environment averaged over about a solid angle.
     void add_filtered(Lanes& sum, glm::vec3 direction, double solid_angle, float weight) const;
 };

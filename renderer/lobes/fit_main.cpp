@@ -40,19 +40,18 @@ void report(const char* what, int step, int of, double error) {
 }
 
 void write_table(const std::vector<LobePair>& nodes) {
-    const auto tap = [](const LobeTap& t) { std::printf("{%.4ff, %.4ff}", t.kappa, t.log2_ratio); };
+    const auto put = [](const LobeSweep& s) {
+        std::printf("{%.4ff, %.4ff, %.4ff, %.4ff, {%.4ff, %.4ff}}", s.log2_ratio, s.kappa, s.slope,
+                    s.irradiance, s.lean.x, s.lean.y);
+    };
     for (const LobePair& pair : nodes) {
         std::printf("{{{");
         for (int half = 0; half < 2; ++half) {
-            const LobeNode& n = pair.by_reflectance[half];
             std::printf(half ? ", {" : "{");
-            tap(n.one);
-            std::printf(", %.4ff, {{", n.one_irradiance);
-            for (std::size_t t = 0; t < n.three.size(); ++t) {
-                if (t) std::printf(", ");
-                tap(n.three[t]);
-            }
-            std::printf("}}, %.4ff, %.4ff, %.4ff}", n.second_weight, n.third_weight, n.three_irradiance);
+            put(pair.by_reflectance[half].three);
+            std::printf(", ");
+            put(pair.by_reflectance[half].four);
+            std::printf("}");
         }
         std::printf("}}},\n");
     }
@@ -67,8 +66,9 @@ void judge_files(int count, char** files) {
     const FitLight light = make_fit_light(set, 512);
     const std::vector<Judgement> rows = judge(light, lobe_nodes(), {});
     for (const float f0 : {1.0f, 0.04f}) {
-        std::printf("F0 = %g: relative rms %%, roughness | split-sum, one tap, three taps | these of each\n",
-                    f0);
+        std::printf(
+            "F0 = %g: relative rms %%, roughness | split-sum, three levels, four levels | these of each\n",
+            f0);
         double mean[kMethods] = {};
         int n = 0;
         for (const Judgement& row : rows) {

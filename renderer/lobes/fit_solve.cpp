@@ -14,7 +14,8 @@ namespace patina::lobes {
 namespace {
 
 constexpr int kN = kLobeTableSize;
-constexpr int kMost = 18;  ///< parameters of a node: two reflectances, nine each
+constexpr int kMost = 12;   ///< parameters of a node: two reflectances, six each
+constexpr int kPhases = 4;  ///< roughnesses at which a node is fitted
 /// Reflectances fitted at once, and how much each counts. The middle one keeps the mixture by φ honest.
 constexpr double kReflectance[] = {1.0, 0.04, 0.2};
 constexpr double kCounts[] = {0.4, 0.35, 0.25};
@@ -24,32 +25,26 @@ constexpr double kCounts[] = {0.4, 0.35, 0.25};
 constexpr float kDarkest = 0.2f;
 
 double node_cosine(int i) { return std::max(1e-3, double(i * i) / ((kN - 1) * (kN - 1))); }
-double node_roughness(int j) { return brdf::kSharpestFitted + (1.0 - brdf::kSharpestFitted) * j / (kN - 1); }
+double node_roughness(int j) { return std::pow(double(brdf::kSharpestFitted), 1.0 - double(j) / (kN - 1)); }
 
-/// Parameters of one reflectance: {κ, ln ρ} of each tap, weights of the second and third, of the
-/// irradiance.
-LobeNode to_node(const double* p, int taps) {
-    constexpr double per_octave = 1.4426950408889634;
-    LobeNode node;
-    if (taps == 1) {
-        node.one = {float(p[0]), float(p[1] * per_octave)};
-        node.one_irradiance = float(p[2]);
-    } else {
-        for (int t = 0; t < 3; ++t)
-            node.three[t] = {float(p[std::ptrdiff_t(2) * t]), float(p[2 * t + 1] * per_octave)};
-        node.second_weight = float(p[6]);
-        node.third_weight = float(p[7]);
-        node.three_irradiance = float(p[8]);
-    }
-    return node;
+/// Parameters of one reflectance: log₂(ρ/r), κ at either end of the sweep, w_E; of four levels a₁ and a₂ too.
+LobeSweep to_sweep(const double* p, bool four) {
+    const double length = four ? 3.0 : 2.0;  ///< in levels
+    LobeSweep sweep{float(p[0]), float(0.5 * (p[1] + p[2])), float((p[2] - p[1]) / length), float(p[3])};
+    if (four) sweep.lean = {float(p[4]), float(p[5])};
+    return sweep;
 }
 
 /// What a node is fitted to: relative light per reflectance, frame and environment.
 struct Target {
     double NoV = 1.0;
-    double roughness = 1.0;
-    double share[3] = {};         ///< φ of each reflectance
-    std::vector<Lanes> radiance;  ///< [reflectance · frames + frame]
+    double roughness = 1.0;  ///< the node's
+    struct Phase {
+        double roughness = 1.0;
+        double share[3] = {};  ///< φ of each reflectance
+    };
+    std::array<Phase, kPhases> phases;  ///< frame f is seen at roughness f mod kPhases
+    std::vector<Lanes> radiance;        ///< [reflectance · frames + frame]
 };
 
 using Step = std::array<double, kMost>;
@@ -65,62 +60,68 @@ public:
     }
 
     /// Parameters of every node, F0 = 1 first.
-    std::vector<Step> fit(int taps) {
-        taps_ = taps;
-        per_ = 3 * taps;
+    std::vector<Step> fit(bool four) {
+        four_ = four;
+        per_ = parameters_of(four);
         start();
-        for (int sweep = 0; sweep < settings_.sweeps; ++sweep) {
-            const double easing = sweep < 6 ? 30.0 : sweep < 12 ? 8.0 : 1.0;
+        for (int pass = 0; pass < settings_.passes; ++pass) {
+            const double easing = pass < 6 ? 30.0 : pass < 12 ? 8.0 : 1.0;
             double sum = 0.0;
             for (int k = 0; k < kN * kN; ++k)
-                sum += improve(sweep % 2 ? kN * kN - 1 - k : k, settings_.smoothness * easing);
-            settings_.progress(taps == 1 ? "one tap" : "three taps", sweep + 1, settings_.sweeps,
+                sum += improve(pass % 2 ? kN * kN - 1 - k : k, settings_.smoothness * easing);
+            settings_.progress(four ? "four levels" : "three levels", pass + 1, settings_.passes,
                                sum / (kN * kN));
         }
         return nodes_;
     }
 
+    static int parameters_of(bool four) { return four ? 6 : 4; }
+
 private:
     Target make_target(double NoV, double roughness) const {
-        Target target{NoV, roughness, {}, {}};
-        const Lobe lobe = sample_lobe(NoV, roughness * roughness, settings_.truth_samples);
-        std::vector<LobeSums> sums;
-        for (const Frame& frame : frames_) sums.push_back(sum_lobe(lobe, light_, frame));
-        const glm::vec2 ab(lobe.Ess - lobe.B, lobe.B);
-        for (int z = 0; z < 3; ++z) {
-            const double f0 = kReflectance[z];
-            target.share[z] = brdf::fresnel_share(float(f0), ab);
-            const double E = f0 * lobe.Ess + (1.0 - f0) * lobe.B;
-            for (const LobeSums& sum : sums) {
-                Lanes radiance{};
-                add_scaled(radiance, sum.plain, float(f0 / E));
-                add_scaled(radiance, sum.fresnel, float((1.0 - f0) / E));
-                target.radiance.push_back(radiance);
-            }
+        Target target{NoV, roughness, {}, std::vector<Lanes>(3 * frames_.size())};
+        for (int k = 0; k < kPhases; ++k) {
+            const double levels = (k + 0.5) / kPhases - 0.5;
+            target.phases[k].roughness = std::clamp(roughness * std::exp2(levels / brdf::kLevelsPerOctave),
+                                                    double(brdf::kSharpestFitted), 1.0);
+            add_phase(target, k);
         }
         return target;
     }
 
-    /// A first guess: Frostbite's dominant direction, a little sharper than the surface; three taps side by
-    /// side along the plane of incidence.
+    void add_phase(Target& target, int k) const {
+        Target::Phase& phase = target.phases[k];
+        const Lobe lobe = sample_lobe(target.NoV, phase.roughness * phase.roughness, settings_.truth_samples);
+        const glm::vec2 ab(lobe.Ess - lobe.B, lobe.B);
+        for (int z = 0; z < 3; ++z) phase.share[z] = brdf::fresnel_share(float(kReflectance[z]), ab);
+        for (std::size_t f = k; f < frames_.size(); f += kPhases) {
+            const LobeSums sums = sum_lobe(lobe, light_, frames_[f]);
+            for (int z = 0; z < 3; ++z) {
+                const double f0 = kReflectance[z], E = f0 * lobe.Ess + (1.0 - f0) * lobe.B;
+                Lanes& radiance = target.radiance[z * frames_.size() + f];
+                add_scaled(radiance, sums.plain, float(f0 / E));
+                add_scaled(radiance, sums.fresnel, float((1.0 - f0) / E));
+            }
+        }
+    }
+
+    /// A first guess: Frostbite's dominant direction, a little sharper than the surface; the sharper levels
+    /// lie towards R, the wider ones towards N.
     void start() {
-        constexpr double kAside[] = {-0.5, 0.7, 2.0}, kNarrower[] = {-0.2, -0.1, 0.1};
         nodes_.assign(std::size_t(kN) * kN, Step{});
         damping_.assign(std::size_t(kN) * kN, 1e-3);
         for (int c = 0; c < kN * kN; ++c) {
             const double r = node_roughness(c / kN), alpha = r * r;
             const double smooth = 1.0 - alpha, turned = 1.0 - smooth * (std::sqrt(smooth) + alpha);
-            const double spread = std::min(0.5, alpha + 0.02);
+            const double aside = (four_ ? 0.5 : 0.33) * std::min(0.5, alpha + 0.02);
             for (int half = 0; half < 2; ++half) {
                 double* p = &nodes_[c][std::size_t(half) * per_];
-                for (int t = 0; t < taps_; ++t) {
-                    const double aside = taps_ == 1 ? 0.0 : kAside[t] * spread;
-                    p[std::ptrdiff_t(2) * t] = std::clamp((0.8 * turned + aside) / alpha, -2.0, 3.0);
-                    p[2 * t + 1] = taps_ == 1 ? -0.05 : kNarrower[t];
-                }
-                if (taps_ == 3) p[6] = p[7] = 0.3;
-                p[per_ - 1] = 0.05;
+                p[0] = -0.1;
+                p[1] = std::clamp((0.8 * turned - aside) / alpha, -2.0, 3.0);
+                p[2] = std::clamp((0.8 * turned + aside) / alpha, -2.0, 3.0);
+                p[3] = 0.05;
             }
+            bound(r, nodes_[c]);
         }
     }
 
@@ -130,15 +131,19 @@ private:
         out.resize(std::size_t(3) * frames * kLanes);
         const float s = float(std::sqrt(1.0 - target.NoV * target.NoV));
         for (int z = 0; z < 3; ++z) {
-            Step mixed{};
-            for (int k = 0; k < per_; ++k) mixed[k] = p[k] + (p[per_ + k] - p[k]) * target.share[z];
-            const LobeNode node = to_node(mixed.data(), taps_);
+            std::array<LobeSweep, kPhases> sweeps;
+            for (int phase = 0; phase < kPhases; ++phase) {
+                Step mixed{};
+                for (int k = 0; k < per_; ++k)
+                    mixed[k] = p[k] + (p[per_ + k] - p[k]) * target.phases[phase].share[z];
+                sweeps[phase] = to_sweep(mixed.data(), four_);
+            }
             const float weight = float(std::sqrt(kCounts[z] / (frames * light_.count)));
             for (int f = 0; f < frames; ++f) {
                 const Frame& frame = frames_[f];
                 const glm::vec3 R = frame.to_world({-s, 0.0f, float(target.NoV)});
-                const Lanes seen =
-                    lobe_radiance(light_, node, taps_ == 3, {R, frame.N, float(target.roughness)});
+                const float roughness = float(target.phases[f % kPhases].roughness);
+                const Lanes seen = lobe_radiance(light_, sweeps[f % kPhases], four_, {R, frame.N, roughness});
                 const Lanes& truth = target.radiance[std::size_t(z) * frames + f];
                 float* to = &out[(std::size_t(z) * frames + f) * kLanes];
                 for (int e = 0; e < kLanes; ++e)
@@ -173,19 +178,17 @@ private:
     }
 
     void bound(double roughness, Step& p) const {
-        const double widest = 1.0 / (roughness * roughness);
+        const double widest = 1.0 / (roughness * roughness), level = 1.0 / brdf::kLevelsPerOctave;
+        const double to_sharpest = std::log2(brdf::kSharpestFitted / roughness);
         for (int half = 0; half < 2; ++half) {
             double* q = &p[std::size_t(half) * per_];
-            for (int t = 0; t < taps_; ++t) {
-                double& turn = q[std::ptrdiff_t(2) * t];
-                turn = std::clamp(turn, -std::min(3.0, widest), std::min(4.0, widest));
-                const double least = std::log(brdf::kSharpestFitted / roughness) - 0.1;
-                q[2 * t + 1] = std::clamp(q[2 * t + 1], std::max(-1.6, least),
-                                          std::min(1.0, 0.02 - std::log(roughness)));
-            }
-            double sum = 0.0;
-            for (int k = 2 * taps_; k < per_; ++k) sum += q[k] = std::clamp(q[k], 0.0, 1.0);
-            for (int k = 2 * taps_; k < per_ && sum > 1.0; ++k) q[k] /= sum;
+            q[0] = std::clamp(q[0], std::max(-2.2, to_sharpest - 2.0 * level),
+                              std::min(1.5, level - std::log2(roughness)));
+            for (const int end : {1, 2})
+                q[end] = std::clamp(q[end], -std::min(3.0, widest), std::min(4.0, widest));
+            q[3] = std::clamp(q[3], 0.0, 1.0);
+            constexpr double kMostLean[] = {4.0, 1.0};  // more of a₂ leaves little of the spline's evenness
+            for (int k = 4; k < per_; ++k) q[k] = std::clamp(q[k], -kMostLean[k - 4], kMostLean[k - 4]);
         }
     }
 
@@ -197,8 +200,9 @@ private:
         Step pull{}, h{};
         for (int k = 0; k < n; ++k) {
             const int q = k % per_;
-            const bool kappa = q < 2 * taps_ && q % 2 == 0;
-            pull[k] = smoothness * (kappa ? 1.0 : 4.0);
+            const bool kappa = q == 1 || q == 2;
+            constexpr double kStiffness[] = {2.0, 1.0, 1.0, 4.0, 0.3, 0.3};
+            pull[k] = smoothness * kStiffness[q];
             h[k] = kappa ? std::min(0.1, 2e-3 / (roughness * roughness)) : 1e-3;
         }
         std::vector<float> before;
@@ -224,7 +228,10 @@ private:
             }
             const Step step = solve_symmetric(a, b, n);
             Step next = nodes_[c];
-            for (int k = 0; k < n; ++k) next[k] += std::clamp(step[k], -0.3, 0.3);
+            for (int k = 0; k < n; ++k) {
+                const double most = k % per_ < 4 ? 0.3 : 0.6;
+                next[k] += std::clamp(step[k], -most, most);
+            }
             bound(roughness, next);
             std::vector<float> after;
             residuals(c, next, after);
@@ -273,46 +280,34 @@ private:
     std::vector<Target> targets_;
     std::vector<Step> nodes_;
     std::vector<double> damping_;
-    int taps_ = 1;
-    int per_ = 3;  ///< parameters of one reflectance
+    bool four_ = false;
+    int per_ = 4;  ///< parameters of one reflectance
 };
 
 }  // namespace
 
-Lanes lobe_radiance(const FitLight& light, const LobeNode& node, bool three, const LobeView& view) {
-    const float alpha = view.roughness * view.roughness, log2_roughness = std::log2(view.roughness);
+Lanes lobe_radiance(const FitLight& light, const LobeSweep& sweep, bool four, const LobeView& view) {
+    const float alpha = view.roughness * view.roughness;
+    const float level = FitLight::level_index(std::log2(view.roughness) + sweep.log2_ratio);
     Lanes sum{};
-    const auto add = [&](const LobeTap& tap, float weight) {
-        light.add_prefiltered(sum, brdf::tap_direction(view.R, view.N, tap.kappa, alpha),
-                              log2_roughness + tap.log2_ratio, weight);
-    };
-    if (three) {
-        add(node.three[0], 1.0f - node.second_weight - node.third_weight - node.three_irradiance);
-        add(node.three[1], node.second_weight);
-        add(node.three[2], node.third_weight);
-        light.irradiance[0].add_to(sum, view.N, node.three_irradiance);
-    } else {
-        add(node.one, 1.0f - node.one_irradiance);
-        light.irradiance[0].add_to(sum, view.N, node.one_irradiance);
-    }
+    for (const SweptLevel& each : swept_levels(sweep, level, four))
+        if (each.weight > 0.0f)
+            light.add_level(sum, brdf::swept_direction(view.R, view.N, each.kappa, alpha), each.level,
+                            each.weight);
+    light.irradiance[0].add_to(sum, view.N, sweep.irradiance);
     return sum;
 }
 
 std::vector<LobePair> fit_lobes(const FitLight& light, const FitSettings& settings) {
     Fitter fitter(light, settings);
-    const std::vector<Step> one = fitter.fit(1), three = fitter.fit(3);
-    std::vector<LobePair> result;
-    for (std::size_t c = 0; c < one.size(); ++c) {
-        LobePair pair;
-        for (int half = 0; half < 2; ++half) {
-            LobeNode node = to_node(&three[c][std::size_t(half) * 9], 3);
-            const LobeNode single = to_node(&one[c][std::size_t(half) * 3], 1);
-            node.one = single.one;
-            node.one_irradiance = single.one_irradiance;
-            pair.by_reflectance[half] = node;
-        }
-        result.push_back(pair);
-    }
+    const std::vector<Step> three = fitter.fit(false), four = fitter.fit(true);
+    std::vector<LobePair> result(three.size());
+    const auto sweep_of = [](const Step& node, std::size_t half, bool is_four) {
+        return to_sweep(&node[half * Fitter::parameters_of(is_four)], is_four);
+    };
+    for (std::size_t c = 0; c < three.size(); ++c)
+        for (std::size_t half = 0; half < 2; ++half)
+            result[c].by_reflectance[half] = {sweep_of(three[c], half, false), sweep_of(four[c], half, true)};
     return result;
 }
 

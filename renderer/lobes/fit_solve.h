@@ -12,14 +12,15 @@ namespace patina::lobes {
 struct FitSettings {
     int frames = 128;          ///< points and views each node is fitted on
     int truth_samples = 4096;  ///< of a lobe
-    int sweeps = 26;           ///< over the table
-    double smoothness = 3e-4;  ///< weight of the second differences between nodes
+    int passes = 26;           ///< over the table
+    double smoothness = 1e-3;  ///< weight of the second differences between nodes
     std::function<void(const char* what, int step, int of, double error)> progress = [](auto...) {};
 };
 
 /// kLobeTableSize² nodes. Minimises the mean square relative error of P (brdf.glsl, 3) at F0 = 1, 0.2 and
 /// 0.04 node by node (Levenberg and Marquardt), with a pull towards the mean of the neighbours, in
-/// alternating sweeps.
+/// alternating passes. Each node is fitted at roughnesses spread over the distance between two levels, so
+/// that it does not settle on one place between them.
 std::vector<LobePair> fit_lobes(const FitLight& light, const FitSettings& settings);
 
 /// What lobes are bent from: the mirrored viewer and the normal, both units, and the surface's roughness.
@@ -28,7 +29,7 @@ struct LobeView {
     float roughness;
 };
 
-/// P of one point by a node's lobes; three: three taps instead of one.
-Lanes lobe_radiance(const FitLight& light, const LobeNode& node, bool three, const LobeView& view);
+/// P of one point by a sweep; four: over four levels instead of three.
+Lanes lobe_radiance(const FitLight& light, const LobeSweep& sweep, bool four, const LobeView& view);
 
 }  // namespace patina::lobes

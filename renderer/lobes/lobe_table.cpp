@@ -15,19 +15,21 @@ constexpr LobePair kNodes[] = {
 #include "renderer/lobes/fitted_lobes.inc"
 };
 static_assert(std::size(kNodes) == std::size_t(kLobeTableSize) * kLobeTableSize);
-static_assert(sizeof(LobeNode) == 12 * sizeof(float));
+
+LobeSweep mixed(const LobeSweep& a, const LobeSweep& b, float share) {
+    return {glm::mix(a.log2_ratio, b.log2_ratio, share), glm::mix(a.kappa, b.kappa, share),
+            glm::mix(a.slope, b.slope, share), glm::mix(a.irradiance, b.irradiance, share),
+            glm::mix(a.lean, b.lean, share)};
+}
 
 LobeNode mixed(const LobeNode& a, const LobeNode& b, float share) {
-    const auto mix = [share](float x, float y) { return x + (y - x) * share; };
-    const auto tap = [&](const LobeTap& x, const LobeTap& y) {
-        return LobeTap{mix(x.kappa, y.kappa), mix(x.log2_ratio, y.log2_ratio)};
-    };
-    return {tap(a.one, b.one),
-            mix(a.one_irradiance, b.one_irradiance),
-            {tap(a.three[0], b.three[0]), tap(a.three[1], b.three[1]), tap(a.three[2], b.three[2])},
-            mix(a.second_weight, b.second_weight),
-            mix(a.third_weight, b.third_weight),
-            mix(a.three_irradiance, b.three_irradiance)};
+    return {mixed(a.three, b.three, share), mixed(a.four, b.four, share)};
+}
+
+/// Where in the table, in nodes.
+glm::vec2 node_coordinates(float NoV, float roughness) {
+    const float log2_roughness = std::log2(std::max(roughness, brdf::kSharpestFitted));
+    return brdf::lobe_coordinates(NoV, log2_roughness) * float(kLobeTableSize - 1);
 }
 
 }  // namespace
@@ -35,7 +37,7 @@ LobeNode mixed(const LobeNode& a, const LobeNode& b, float share) {
 std::span<const LobePair> lobe_nodes() { return kNodes; }
 
 LobeNode lobe_at(std::span<const LobePair> nodes, float NoV, float roughness, float phi) {
-    const glm::vec2 at = brdf::lobe_coordinates(NoV, roughness) * float(kLobeTableSize - 1);
+    const glm::vec2 at = node_coordinates(NoV, roughness);
     const int i = std::min(int(at.x), kLobeTableSize - 2);
     const int j = std::min(int(at.y), kLobeTableSize - 2);
     const auto node = [&](int x, int y) {
@@ -47,24 +49,32 @@ LobeNode lobe_at(std::span<const LobePair> nodes, float NoV, float roughness, fl
                  at.y - float(j));
 }
 
-LobeReach lobe_reach(float lowest_roughness, float highest_roughness, bool three_taps) {
-    const auto row = [](float roughness) {
-        return brdf::lobe_coordinates(1.0f, roughness).y * float(kLobeTableSize - 1);
-    };
-    const int first = int(std::floor(row(lowest_roughness)));
-    const int last = int(std::ceil(row(highest_roughness)));
+std::array<SweptLevel, 4> swept_levels(const LobeSweep& sweep, float level, bool four) {
+    const float second = std::floor(four ? level : level + 0.5f), beyond = level - second;
+    const glm::vec4 weights =
+        four ? brdf::four_weights(beyond, sweep.lean) : glm::vec4(brdf::three_weights(beyond), 0.0f);
+    std::array<SweptLevel, 4> levels;
+    for (int i = 0; i < 4; ++i)
+        levels[i] = {int(second) + i - 1, (1.0f - sweep.irradiance) * weights[i],
+                     sweep.kappa + sweep.slope * (float(i - 1) - beyond)};
+    return levels;
+}
+
+LobeReach lobe_reach(float lowest_roughness, float highest_roughness, bool four_levels) {
+    const int first = int(std::floor(node_coordinates(1.0f, lowest_roughness).y));
+    const int last = int(std::ceil(node_coordinates(1.0f, highest_roughness).y));
     float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
     for (int k = first * kLobeTableSize; k < (last + 1) * kLobeTableSize; ++k) {
         for (const LobeNode& node : kNodes[k].by_reflectance) {
-            const auto include = [&](const LobeTap& tap) {
-                low = std::min(low, tap.log2_ratio);
-                high = std::max(high, tap.log2_ratio);
-            };
-            if (!three_taps) include(node.one);
-            for (int t = 0; three_taps && t < 3; ++t) include(node.three[t]);
+            const float ratio = four_levels ? node.four.log2_ratio : node.three.log2_ratio;
+            low = std::min(low, ratio);
+            high = std::max(high, ratio);
         }
     }
-    return {std::exp2(low), std::exp2(high)};
+    // Beside the two levels around the middle: of four, the next on either side; of three, the nearer of
+    // these.
+    const float beside = (four_levels ? 1.0f : 0.5f) / brdf::kLevelsPerOctave;
+    return {std::exp2(low - beside), std::exp2(high + beside)};
 }
 
 }  // namespace patina

@@ -1,29 +1,30 @@
 // The fitted lobes of renderer/shaders/brdf.glsl, equation (3), as plain numbers. Knows no GL and no
 // environment.
 //
-// A table of nodes over (√NoV, roughness), end-inclusive, as patina_fit_lobes wrote it (fitted_lobes.inc;
-// lobes.glsl reads it bilinearly): node (i, j) lies at NoV = (i/15)², roughness = 0.1 + 0.9 j/15.
+// A table of nodes over (√NoV, log roughness), end-inclusive, as patina_fit_lobes wrote it (fitted_lobes.inc;
+// lobes.glsl reads it bilinearly): node (i, j) lies at NoV = (i/15)², roughness = 0.1 · 10^(j/15).
 #pragma once
+
+#include <glm/vec2.hpp>
 
 #include <array>
 #include <span>
 
 namespace patina {
 
-/// A look into the prefiltered light.
-struct LobeTap {
-    float kappa = 0.0f;       ///< direction R + kappa · alpha · (N − R)
-    float log2_ratio = 0.0f;  ///< log₂ of the level's roughness over the surface's
+/// How the prefiltered levels are swept.
+struct LobeSweep {
+    float log2_ratio = 0.0f;  ///< log₂(ρ/r): the middle's roughness over the surface's
+    float kappa = 0.0f;       ///< κ: in the middle, direction R + κ · alpha · (N − R)
+    float slope = 0.0f;       ///< λ: what a level adds to κ
+    float irradiance = 0.0f;  ///< w_E, 0…1
+    glm::vec2 lean{0.0f};     ///< a₁, a₂; of four levels
 };
 
-/// For one F0; weights are fractions, the first tap takes what the others leave.
+/// For one F0.
 struct LobeNode {
-    LobeTap one;
-    float one_irradiance = 0.0f;
-    std::array<LobeTap, 3> three;
-    float second_weight = 0.0f;
-    float third_weight = 0.0f;
-    float three_irradiance = 0.0f;
+    LobeSweep three;  ///< over three levels
+    LobeSweep four;   ///< over four
 };
 
 struct LobePair {
@@ -35,15 +36,25 @@ inline constexpr int kLobeTableSize = 16;
 /// kLobeTableSize² nodes, √NoV fastest.
 std::span<const LobePair> lobe_nodes();
 
-/// Bilinear in the table, linear in φ (brdf.glsl, equation 4), as the shader reads it. NoV and roughness in
-/// 0…1.
+/// Bilinear in the table, linear in φ (brdf.glsl, equation 4), as the shader reads it. NoV in 0…1, roughness
+/// in 0…1 and taken for kSharpestFitted where it is less.
 LobeNode lobe_at(std::span<const LobePair> nodes, float NoV, float roughness, float phi);
 
-/// Bounds of the levels' roughness over the surface's, for surfaces between two roughnesses.
+/// What one of the swept levels adds.
+struct SweptLevel {
+    int level = 0;        ///< index; of levels beyond the ends too
+    float weight = 0.0f;  ///< of the sweep's, which sum to 1 − irradiance
+    float kappa = 0.0f;
+};
+/// Equation (3) around a continuous index of levels; of three levels the last has no weight.
+std::array<SweptLevel, 4> swept_levels(const LobeSweep& sweep, float level, bool four);
+
+/// Bounds of the swept levels' roughness over the surface's, for surfaces between two roughnesses, where
+/// levels are no further apart than standard ones.
 struct LobeReach {
     float sharpest = 1.0f;
     float widest = 1.0f;
 };
-LobeReach lobe_reach(float lowest_roughness, float highest_roughness, bool three_taps);
+LobeReach lobe_reach(float lowest_roughness, float highest_roughness, bool four_levels);
 
 }  // namespace patina

@@ -25,11 +25,19 @@
 // (distribution_spread).
 //
 // Fitted lobes. A prefiltered level of roughness ρ holds the environment under the lobe of N = V. The true lobe of (NoV, r)
-// lies elsewhere, towards N, and is narrower across the plane of incidence; far from its middle it has tails. So
-//     P ≈ Σ w_i · level(ρ_i) along R + κ_i α (N − R)  +  w_E · E(N)/π,      Σ w_i + w_E = 1           (3)
-// with one or three taps. κ_i, log₂(ρ_i/r), w_i and w_E are read from a table over (√NoV, r), fitted once for F0 = 1 and
-// once for 0.04 (renderer/lobes/): at grazing angles Schlick's Fc cuts the lobe's steep side away. Between the two they are
-// mixed by φ, the share of the reflected energy that Fc carries,
+// lies elsewhere, towards N, and is longer in the plane of incidence than across it; far from its middle it has tails. So
+// consecutive stored levels are read once each, along directions of their own that sweep through that plane. With
+// l(ρ) the levels' continuous index, 0, 1, 2, … at the roughness of each (level_index in light.glsl), and o = m − l(ρ) how
+// far level m lies from the middle of the sweep,
+//     P ≈ (1 − w_E) Σ_m w(o) · level(m) along R + (κ + λ o) α (N − R)  +  w_E · E(N)/π,   Σ w = 1           (3)
+//     standard:      w = B₂(o)                                       three levels, |o| < 3/2
+//     high quality:  w ∝ B₃(o) · 2^(a₁ o + a₂ o²)                    four levels, |o| < 2
+// λ draws the lobe out, a₁ and a₂ say where along it the light is. The B-splines B₂ and B₃ vanish with their first derivatives
+// where levels enter and leave, so P is smooth in ρ; and their mean square Σ w o² is the same (1/4, 1/3) wherever l lies
+// between two levels, so the lobe is as long everywhere. Two levels mixed linearly are from 0 to 1/4 long: bands. Beyond either end of the list the last level is read along
+// several directions. log₂(ρ/r), κ, λ, a and w_E are read from a table over (√NoV, log r), fitted once for F0 = 1 and once
+// for 0.04 on standard levels (renderer/lobes/): at grazing angles Schlick's Fc cuts the lobe's steep side away. Between the
+// two they are mixed by φ, the share of the reflected energy that Fc carries,
 //     φ(f0) = s(f0)/s(0.04),   s(f0) = (1 − f0) B / (f0 · Ess + (1 − f0) B).                        (4)
 // The weights sum to 1 and E_F is exact, so constant light is reflected exactly whatever the table holds.
 //
@@ -142,14 +150,33 @@ PATINA_FN vec2 albedo_coordinates(float NoV, float roughness) {
     return (vec2(sqrt(NoV), roughness) * (kAlbedoTableSize - 1.0f) + 0.5f) / kAlbedoTableSize;
 }
 
-// Where the table of fitted lobes is read: √NoV, and roughness from the sharpest fitted one on, as fractions of its sides.
+// Where the table of fitted lobes is read: √NoV, and the logarithm of roughness from the sharpest fitted one to 1, as
+// fractions of its sides.
 const float kSharpestFitted = 0.1f;
-PATINA_FN vec2 lobe_coordinates(float NoV, float roughness) {
-    return vec2(sqrt(clamp(NoV, 0.0f, 1.0f)), clamp((roughness - kSharpestFitted) / (1.0f - kSharpestFitted), 0.0f, 1.0f));
+PATINA_FN vec2 lobe_coordinates(float NoV, float log2_roughness) {
+    return vec2(sqrt(clamp(NoV, 0.0f, 1.0f)), clamp(1.0f - log2_roughness / log2(kSharpestFitted), 0.0f, 1.0f));
 }
 
-// Direction of a tap (3), not normalised. Precondition: N·R > −1.
-PATINA_FN vec3 tap_direction(vec3 R, vec3 N, float kappa, float alpha) { return R + (N - R) * (kappa * alpha); }
+// Direction along which (3) reads a level, not normalised. Precondition: N·R > −1.
+PATINA_FN vec3 swept_direction(vec3 R, vec3 N, float kappa, float alpha) { return R + (N - R) * (kappa * alpha); }
+
+// Of the standard levels, which are evenly spaced in the logarithm of roughness: fifteen to a factor of ten.
+const float kLevelsPerOctave = 4.5154499f;
+
+// w of (3) for the three levels around l, which lies `beyond` the second, −½…½: o = (−1, 0, 1) − beyond.
+PATINA_FN vec3 three_weights(float beyond) {
+    return vec3(0.5f * square(0.5f - beyond), 0.75f - beyond * beyond, 0.5f * square(0.5f + beyond));
+}
+
+// w of (3) for the four levels around l, a fraction `within` beyond the second: o = (−1, 0, 1, 2) − within. lean: a₁, a₂.
+PATINA_FN vec4 four_weights(float within, vec2 lean) {
+    float left = 1.0f - within;
+    vec4 spline = vec4(left * left * left, 4.0f - (6.0f - 3.0f * within) * within * within,
+                       4.0f - (6.0f - 3.0f * left) * left * left, within * within * within);
+    vec4 o = vec4(-1.0f, 0.0f, 1.0f, 2.0f) - within;
+    vec4 weights = spline * exp2((o * lean.y + lean.x) * o);
+    return weights / dot(weights, vec4(1.0f));
+}
 
 // Roughness with spread added to alpha². Untouched without spread.
 PATINA_FN float widened_roughness(float roughness, float spread) {

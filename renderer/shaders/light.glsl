@@ -51,14 +51,26 @@ vec3 level_light(vec3 d, float level) {
     return textureLod(level_maps, vec4(d, level - mip * level_layout.y), mip).rgb;
 }
 
-// Two neighbouring levels, mixed linearly in log roughness. Each segment of the piecewise linear map from log roughness
-// to level contributes its clamped share, so no search and no branch.
-vec3 prefiltered_light(vec3 d, float log2_roughness) {
+// 0, 1, 2, … at the roughness of each level, linear in its logarithm between, the first's or the last's beyond them. Each
+// segment of this piecewise linear map contributes its clamped share, so no search and no branch.
+float bounded_level_index(float log2_roughness) {
     float level = 0.0;
     for (int i = 0; i < PATINA_LEVEL_ROWS; ++i) {
         if (float(4 * i) >= level_layout.x) break;
         level += dot(clamp(level_slope[i] * log2_roughness + level_offset[i], 0.0, 1.0), vec4(1.0));
     }
+    return level;
+}
+
+// Likewise, but beyond the ends as if standard levels went on there.
+float level_index(float log2_roughness) {
+    float beyond = log2_roughness - clamp(log2_roughness, level_ends.x, level_ends.y);
+    return bounded_level_index(log2_roughness) + kLevelsPerOctave * beyond;
+}
+
+// Two neighbouring levels, mixed linearly in log roughness.
+vec3 prefiltered_light(vec3 d, float log2_roughness) {
+    float level = bounded_level_index(log2_roughness);
     float lower = min(floor(level), level_layout.x);
     float upper = min(lower + 1.0, level_layout.x);
     return mix(level_light(d, lower), level_light(d, upper), level - lower) * env_scale.y;

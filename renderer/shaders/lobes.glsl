@@ -1,7 +1,7 @@
 // What the environment sends into the specular lobe of a point: P of brdf.glsl's equation (2), by the shading mode.
 
 #ifdef HAS_FITTED
-uniform sampler3D lobe_table;   // over (√NoV, roughness); pairs of slices for F0 = 1 and 0.04 (renderer/lobes)
+uniform sampler3D lobe_table;   // over (√NoV, log roughness); pairs of slices for F0 = 1 and 0.04 (renderer/lobes)
 #endif
 
 // A point as its lobe needs it, directions in the environment's frame.
@@ -19,10 +19,35 @@ struct LobePoint {
 };
 
 #ifdef HAS_FITTED
-vec4 lobe_slice(LobePoint p, float first) {
+vec4 lobe_slice(LobePoint p, float log2_roughness, float first) {
     vec3 size = vec3(textureSize(lobe_table, 0));
-    vec2 at = lobe_coordinates(p.NoV, p.roughness) * (size.xy - 1.0) + 0.5;
+    vec2 at = lobe_coordinates(p.NoV, log2_roughness) * (size.xy - 1.0) + 0.5;
     return textureLod(lobe_table, vec3(at, first + 0.5 + fresnel_share(p.f0, p.ab)) / size, 0.0);
+}
+
+// Equation (3). The table's log2(ρ/r), κ, λ and w_E; of four levels a1 and a2.
+vec3 swept_light(LobePoint p, float log2_roughness) {
+    float alpha = max(square(p.roughness), level_layout.w);
+#ifdef HAS_FOUR_LEVELS
+    const int count = 4;
+    vec4 sweep = lobe_slice(p, log2_roughness, 2.0);
+    float level = level_index(log2_roughness + sweep.x);
+    float first = floor(level) - 1.0;
+    vec4 weights = four_weights(level - 1.0 - first, lobe_slice(p, log2_roughness, 4.0).xy);
+#else
+    const int count = 3;
+    vec4 sweep = lobe_slice(p, log2_roughness, 0.0);
+    float level = level_index(log2_roughness + sweep.x);
+    float first = floor(level + 0.5) - 1.0;
+    vec3 weights = three_weights(level - 1.0 - first);
+#endif
+    vec3 light = vec3(0.0);
+    for (int i = 0; i < count; ++i) {
+        float m = first + float(i);
+        vec3 d = swept_direction(p.R, p.N, sweep.y + sweep.z * (m - level), alpha);
+        light += weights[i] * level_light(d, clamp(m, 0.0, level_layout.x));
+    }
+    return mix(light * env_scale.y, p.irradiance, sweep.w);
 }
 #endif
 
@@ -30,21 +55,7 @@ vec4 lobe_slice(LobePoint p, float first) {
 vec3 wide_lobe_light(LobePoint p) {
     float log2_roughness = log2(max(p.roughness, level_layout.z));
 #ifdef HAS_FITTED
-    float alpha = max(square(p.roughness), level_layout.w);
-#ifdef HAS_THREE_TAPS
-    vec4 taps = lobe_slice(p, 2.0);
-    vec4 third = lobe_slice(p, 4.0);    // and the weights of the second and third
-    float irradiance = lobe_slice(p, 0.0).w;
-    vec3 light = (1.0 - third.z - third.w - irradiance) *
-                 prefiltered_light(tap_direction(p.R, p.N, taps.x, alpha), log2_roughness + taps.y);
-    light += third.z * prefiltered_light(tap_direction(p.R, p.N, taps.z, alpha), log2_roughness + taps.w);
-    light += third.w * prefiltered_light(tap_direction(p.R, p.N, third.x, alpha), log2_roughness + third.y);
-    return light + irradiance * p.irradiance;
-#else
-    vec3 tap = lobe_slice(p, 0.0).xyz;
-    vec3 light = prefiltered_light(tap_direction(p.R, p.N, tap.x, alpha), log2_roughness + tap.y);
-    return mix(light, p.irradiance, tap.z);
-#endif
+    return swept_light(p, log2_roughness);
 #else
     return prefiltered_light(p.R, log2_roughness);
 #endif

@@ -3,6 +3,7 @@
 #include "renderer/gl/light_levels.h"
 #include "renderer/gl/mesh_prepare.h"
 #include "renderer/needed_light.h"
+#include "renderer/shaders/blocks.h"
 #include "tests/gl/scene.h"
 
 #include <gtest/gtest.h>
@@ -257,6 +258,31 @@ TEST(Levels, enlarging_a_cube_keeps_smooth_light_and_has_no_seams) {
                     << row << "," << x;
         }
     }
+}
+
+TEST(Light, levels_far_apart_get_others_between) {
+    const auto level = [](float roughness, int size, float light) {
+        return PrefilteredLevel{
+            roughness, {size, std::vector<glm::vec3>(std::size_t(6) * size * size, glm::vec3(light))}};
+    };
+    const auto closed = close_gaps({level(0.1f, 8, 1.0f), level(0.11f, 8, 2.0f), level(0.4f, 4, 3.0f)});
+    ASSERT_EQ(closed.size(), 11u);  // log(0.4/0.11)/log(10) · 15 = 8.4
+    for (std::size_t i = 1; i < closed.size(); ++i) {
+        const float ratio = closed[i].roughness / closed[i - 1].roughness;
+        EXPECT_GT(ratio, 1.0f);
+        EXPECT_LT(ratio, std::pow(10.0f, 1.0f / 15.0f) + 1e-4f);
+        EXPECT_EQ(closed[i].cube.size, i + 1 < closed.size() ? 8 : 4);
+    }
+    EXPECT_NEAR(closed[5].roughness, 0.11f * std::pow(0.4f / 0.11f, 4.0f / 9.0f), 1e-6f);
+    EXPECT_NEAR(closed[5].cube.texels[0].x, 2.0f + 4.0f / 9.0f, 1e-5f);
+    std::vector<PrefilteredLevel> standard;
+    for (const float roughness : standard_roughness_levels()) standard.push_back(level(roughness, 1, 0.0f));
+    EXPECT_EQ(close_gaps(standard).size(), standard.size());
+    // More than the shaders hold is never made.
+    std::vector<PrefilteredLevel> many;
+    for (int i = 0; i < 30; ++i) many.push_back(level(0.01f * float(i + 1), 1, 0.0f));
+    many.push_back(level(1.0f, 1, 0.0f));
+    EXPECT_EQ(close_gaps(many).size(), std::size_t(blocks::kMaxLevels));
 }
 
 TEST(Meshes, are_closed_where_nothing_can_be_seen_from_inside) {

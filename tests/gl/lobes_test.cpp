@@ -50,19 +50,17 @@ glm::vec3 expected_light(const Case& c, glm::vec3 N, glm::vec3 V) {
     const LobeNode lobe =
         lobe_at(lobe_nodes(), c.NoV, c.roughness, brdf::fresnel_share(brdf::luminance(F0), ab));
     const glm::vec3 R = glm::reflect(-V, N);
-    const auto tap = [&](const LobeTap& t) {
-        const glm::vec3 d = glm::normalize(brdf::tap_direction(R, N, t.kappa, c.roughness * c.roughness));
-        return linear_radiance(d,
-                               linear_slope(std::clamp(c.roughness * std::exp2(t.log2_ratio), 0.1f, 1.0f)));
-    };
+    const bool four = c.quality == Quality::High;
+    const LobeSweep& sweep = four ? lobe.four : lobe.three;
+    const std::vector<float> standard = standard_roughness_levels();
+    const float level = 15.0f * (1.0f + std::log10(c.roughness * std::exp2(sweep.log2_ratio)));
     const glm::vec3 irradiance = linear_radiance(N, linear_slope(1.0f));
-    glm::vec3 P;
-    if (c.quality == Quality::High)
-        P = (1.0f - lobe.second_weight - lobe.third_weight - lobe.three_irradiance) * tap(lobe.three[0]) +
-            lobe.second_weight * tap(lobe.three[1]) + lobe.third_weight * tap(lobe.three[2]) +
-            lobe.three_irradiance * irradiance;
-    else
-        P = (1.0f - lobe.one_irradiance) * tap(lobe.one) + lobe.one_irradiance * irradiance;
+    glm::vec3 P = sweep.irradiance * irradiance;
+    for (const SweptLevel& each : swept_levels(sweep, level, four)) {
+        const glm::vec3 d = brdf::swept_direction(R, N, each.kappa, c.roughness * c.roughness);
+        const float roughness = standard[std::size_t(std::clamp(each.level, 0, 15))];
+        P += each.weight * linear_radiance(glm::normalize(d), linear_slope(roughness));
+    }
     const auto w = brdf::split_sum_weights(glm::vec3(1.0f), c.metallic, ab);
     return w.single * P + (w.multiple + w.diffuse) * irradiance;
 }

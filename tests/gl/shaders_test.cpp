@@ -43,7 +43,7 @@ TEST(Shaders, features_are_only_what_the_material_uses) {
     EXPECT_EQ(features_of(material, bound, view, light), Features(Feature::Fitted));
     view.quality = Quality::High;
     EXPECT_EQ(features_of(material, bound, view, light),
-              Features(Feature::Fitted) | Features(Feature::ThreeTaps));
+              Features(Feature::Fitted) | Features(Feature::FourLevels));
     view.shading = Shading::SplitSum;
     EXPECT_EQ(features_of(material, bound, view, light), 0u);
     material.roughness.value = 0.12f;
@@ -190,16 +190,23 @@ TEST(Shaders, the_lobes_formulas_are_the_same_on_both_sides) {
     const std::string brdf = "#include \"brdf.glsl\"";
     expect_agreement(brdf,
                      "vec4(fresnel_share(p.x, vec2(0.8 - 0.5 * p.y, 0.2 * p.y)), "
-                     "lobe_coordinates(p.x, p.y), 1.0)",
+                     "lobe_coordinates(p.x, -4.0 * p.y), 1.0)",
                      [](glm::vec2 p) {
                          return glm::vec3(brdf::fresnel_share(p.x, {0.8f - 0.5f * p.y, 0.2f * p.y}),
-                                          brdf::lobe_coordinates(p.x, p.y));
+                                          brdf::lobe_coordinates(p.x, -4.0f * p.y));
                      });
     expect_agreement(
-        brdf, "vec4(tap_direction(vec3(p.x, 0.3, -p.y), vec3(0.0, 1.0, 0.0), 3.0 * p.y - 1.0, p.x), 1.0)",
+        brdf, "vec4(swept_direction(vec3(p.x, 0.3, -p.y), vec3(0.0, 1.0, 0.0), 3.0 * p.y - 1.0, p.x), 1.0)",
         [](glm::vec2 p) {
-            return brdf::tap_direction({p.x, 0.3f, -p.y}, {0.0f, 1.0f, 0.0f}, 3.0f * p.y - 1.0f, p.x);
+            return brdf::swept_direction({p.x, 0.3f, -p.y}, {0.0f, 1.0f, 0.0f}, 3.0f * p.y - 1.0f, p.x);
         });
+    expect_agreement(brdf, "vec4(three_weights(p.x - 0.5), 1.0)",
+                     [](glm::vec2 p) { return brdf::three_weights(p.x - 0.5f); });
+    expect_agreement(brdf, "vec4(four_weights(p.x, vec2(8.0 * p.y - 4.0, 2.0 - 3.0 * p.y)).yzw, 1.0)",
+                     [](glm::vec2 p) {
+                         const glm::vec4 w = brdf::four_weights(p.x, {8.0f * p.y - 4.0f, 2.0f - 3.0f * p.y});
+                         return glm::vec3(w.y, w.z, w.w);
+                     });
     expect_agreement(brdf, "vec4(multi_bounce_occlusion(p.x, vec3(0.1, p.y, 0.9)), 1.0)", [](glm::vec2 p) {
         return brdf::multi_bounce_occlusion(p.x, {0.1f, p.y, 0.9f});
     });

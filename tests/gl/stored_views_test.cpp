@@ -66,7 +66,7 @@ const Case kCases[] = {
          scene.view.background = Background::Blurred;
          scene.view.env_rotation_deg = 50.0f;
      }},
-    {"three taps on a quad before nothing",
+    {"high quality on a quad before nothing",
      [](Scene& scene) {
          scene.mesh = quad();
          scene.view.quality = Quality::High;

@@ -40,7 +40,7 @@ TEST(LobeTruth, weights_sum_to_the_albedo_and_constant_light_comes_back_constant
     const Lobe lobe = sample_lobe(0.4, 0.1, 256);
     const LobeSums sums = sum_lobe(lobe, furnace, spread_frames(3)[1]);
     EXPECT_NEAR(sums.plain[0], lobe.Ess, 1e-4);
-    EXPECT_NEAR(lobe_radiance(furnace, lobe_at(lobe_nodes(), 0.4f, 0.3f, 0.5f), true,
+    EXPECT_NEAR(lobe_radiance(furnace, lobe_at(lobe_nodes(), 0.4f, 0.3f, 0.5f).four, true,
                               {{0, 1, 0}, {0, 0, 1}, 0.3f})[0],
                 1.0f, 1e-4f);
 }
@@ -64,9 +64,9 @@ TEST(LobeTable, is_nearer_to_the_integral_than_split_sum_in_light_it_was_not_fit
     settings.pixels = 80;
     settings.truth_samples = 1024;
     for (const Judgement& row : judge(unseen_light(), lobe_nodes(), settings)) {
-        const double split = row.rms[0], one = row.rms[1], three = row.rms[2];
-        EXPECT_LT(one, 0.6 * split) << row.roughness << " " << row.reflectance;
-        EXPECT_LT(three, 0.8 * one) << row.roughness << " " << row.reflectance;
+        const double split = row.rms[0], three = row.rms[1], four = row.rms[2];
+        EXPECT_LT(three, 0.6 * split) << row.roughness << " " << row.reflectance;
+        EXPECT_LT(four, 0.9 * three) << row.roughness << " " << row.reflectance;
     }
 }
 
@@ -97,7 +97,7 @@ TEST(SlowLobeFit, of_a_few_environments_already_halves_the_error_of_split_sum) {
     FitSettings settings;
     settings.frames = 24;
     settings.truth_samples = 256;
-    settings.sweeps = 8;
+    settings.passes = 8;
     const std::vector<LobePair> nodes = fit_lobes(make_fit_light(set, 64), settings);
     ASSERT_EQ(nodes.size(), lobe_nodes().size());
     JudgeSettings judging;
@@ -108,19 +108,64 @@ TEST(SlowLobeFit, of_a_few_environments_already_halves_the_error_of_split_sum) {
         EXPECT_LT(row.rms[1], 0.75 * row.rms[0]) << row.roughness << " " << row.reflectance;
 }
 
-TEST(LobeTable, reaches_no_sharper_and_no_wider_than_its_nodes) {
-    const LobeReach all = lobe_reach(0.1f, 1.0f, false);
-    for (const LobePair& pair : lobe_nodes())
-        for (const LobeNode& node : pair.by_reflectance) {
-            EXPECT_GE(std::exp2(node.one.log2_ratio), all.sharpest);
-            EXPECT_LE(std::exp2(node.one.log2_ratio), all.widest);
+TEST(LobeTable, reaches_over_all_levels_that_a_lobe_is_made_of) {
+    for (const bool four : {false, true}) {
+        const LobeReach all = lobe_reach(0.1f, 1.0f, four);
+        for (float r = 0.1f; r <= 1.0f; r *= 1.03f) {
+            const LobeReach reach = lobe_reach(r, r, four);
+            EXPECT_GE(reach.sharpest, all.sharpest);
+            EXPECT_LE(reach.widest, all.widest);
+            for (const float NoV : {0.001f, 0.1f, 0.37f, 0.8f, 1.0f}) {
+                const LobeNode node = lobe_at(lobe_nodes(), NoV, r, 0.3f);
+                const LobeSweep& sweep = four ? node.four : node.three;
+                const float level = FitLight::level_index(std::log2(r) + sweep.log2_ratio);
+                // The outermost levels are those that enclose the reach.
+                const float first = FitLight::level_index(std::log2(r * reach.sharpest)) - 1.0f;
+                const float last = FitLight::level_index(std::log2(r * reach.widest)) + 1.0f;
+                for (const SweptLevel& each : swept_levels(sweep, level, four)) {
+                    if (each.weight < 1e-6f) continue;
+                    EXPECT_GT(float(each.level), first) << r << " " << NoV;
+                    EXPECT_LT(float(each.level), last) << r << " " << NoV;
+                }
+            }
         }
-    const LobeReach narrow = lobe_reach(0.4f, 0.41f, false);
-    EXPECT_GE(narrow.sharpest, all.sharpest);
-    EXPECT_LE(narrow.widest, all.widest);
-    const LobeNode node = lobe_at(lobe_nodes(), 0.3f, 0.405f, 0.3f);
-    EXPECT_GE(std::exp2(node.one.log2_ratio), narrow.sharpest);
-    EXPECT_LE(std::exp2(node.one.log2_ratio), narrow.widest);
+    }
+}
+
+TEST(LobeSweep, gives_levels_no_weight_where_they_enter_and_leave) {
+    const LobeSweep sweep{-0.3f, 0.4f, 1.3f, 0.2f, {2.0f, 1.5f}};
+    for (const bool four : {false, true}) {
+        for (float level = -3.0f; level < 17.0f; level += 0.125f) {
+            float sum = 0.0f;
+            for (const SweptLevel& each : swept_levels(sweep, level, four)) sum += each.weight;
+            EXPECT_NEAR(sum, 0.8f, 1e-6f);
+        }
+        // On both sides each has the same weight and the same direction.
+        const float change = four ? 7.0f : 6.5f;
+        const auto below = swept_levels(sweep, change - 1e-4f, four),
+                   above = swept_levels(sweep, change, four);
+        for (const SweptLevel& b : below)
+            for (const SweptLevel& a : above)
+                if (a.level == b.level) {
+                    EXPECT_NEAR(a.weight, b.weight, 1e-3f);
+                    EXPECT_NEAR(a.kappa, b.kappa, 1e-3f);
+                }
+        EXPECT_LT(below[0].weight, 1e-3f);
+        EXPECT_LT(above[3].weight, 1e-3f);
+    }
+}
+
+TEST(LobeSweep, without_a_lean_is_as_long_wherever_it_lies_between_levels) {
+    for (const bool four : {false, true})
+        for (float level = 3.0f; level < 5.0f; level += 0.0625f) {
+            double mean = 0.0, square = 0.0;
+            for (const SweptLevel& each : swept_levels({0.0f, 0.7f, 1.0f}, level, four)) {
+                mean += double(each.weight) * each.level;
+                square += double(each.weight) * (each.kappa - 0.7) * (each.kappa - 0.7);
+            }
+            EXPECT_NEAR(mean, level, 1e-5);
+            EXPECT_NEAR(square, four ? 1.0 / 3.0 : 0.25, 1e-5);
+        }
 }
 
 }  // namespace
