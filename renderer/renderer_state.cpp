@@ -26,7 +26,7 @@ gl::Texture make_brdf_texture() {
     return texture;
 }
 
-/// Pairs of slices, F0 = 1 first: the sweep over three levels; that over four; the lean of the latter's
+/// Pairs of slices, F0 = 1 first: the sweep over two levels; that over four; the lean of the latter's
 /// weights.
 gl::Texture make_lobe_texture() {
     constexpr int size = kLobeTableSize;
@@ -40,7 +40,7 @@ gl::Texture make_lobe_texture() {
             const auto put_sweep = [&](int slice, const LobeSweep& sweep) {
                 put(slice, {sweep.log2_ratio, sweep.kappa, sweep.slope, sweep.irradiance});
             };
-            put_sweep(0, node.three);
+            put_sweep(0, node.two);
             put_sweep(2, node.four);
             put(4, {node.four.lean, 0.0f, 0.0f});
         }

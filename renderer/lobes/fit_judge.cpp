@@ -102,7 +102,7 @@ void add_pixel(const Judged& judged, const Pixel& pixel, float roughness, Sums& 
         const LobeNode node = lobe_at(judged.nodes, pixel.NoV, roughness, brdf::fresnel_share(f0, ab));
         std::array<Lanes, kMethods> P{};
         light.add_prefiltered(P[0], R, std::log2(roughness), 1.0f);
-        P[1] = lobe_radiance(light, node.three, false, {R, N, roughness});
+        P[1] = lobe_radiance(light, node.two, false, {R, N, roughness});
         P[2] = lobe_radiance(light, node.four, true, {R, N, roughness});
         for (int e = 0; e < light.count; ++e) {
             const double rest = (w.multiple.x + w.diffuse.x) * (irradiance[e] + lights.irradiance[e]);

@@ -11,7 +11,7 @@
 
 namespace patina::lobes {
 
-enum class Method { SplitSum, ThreeLevels, FourLevels };
+enum class Method { SplitSum, TwoLevels, FourLevels };
 inline constexpr int kMethods = 3;
 
 /// Root mean squares of the relative error (x − t)/max(t, 10⁻³ · mean) over the sphere's pixels.

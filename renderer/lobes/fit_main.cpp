@@ -48,7 +48,7 @@ void write_table(const std::vector<LobePair>& nodes) {
         std::printf("{{{");
         for (int half = 0; half < 2; ++half) {
             std::printf(half ? ", {" : "{");
-            put(pair.by_reflectance[half].three);
+            put(pair.by_reflectance[half].two);
             std::printf(", ");
             put(pair.by_reflectance[half].four);
             std::printf("}");
@@ -67,8 +67,7 @@ void judge_files(int count, char** files) {
     const std::vector<Judgement> rows = judge(light, lobe_nodes(), {});
     for (const float f0 : {1.0f, 0.04f}) {
         std::printf(
-            "F0 = %g: relative rms %%, roughness | split-sum, three levels, four levels | these of each\n",
-            f0);
+            "F0 = %g: relative rms %%, roughness | split-sum, two levels, four levels | these of each\n", f0);
         double mean[kMethods] = {};
         int n = 0;
         for (const Judgement& row : rows) {

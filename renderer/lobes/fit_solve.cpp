@@ -24,12 +24,15 @@ constexpr double kCounts[] = {0.4, 0.35, 0.25};
 /// every lobe.
 constexpr float kDarkest = 0.2f;
 
+/// λ of two levels: a longer lobe would be seen to shorten where one level is looked up alone.
+constexpr double kMostSlope = 1.0;
+
 double node_cosine(int i) { return std::max(1e-3, double(i * i) / ((kN - 1) * (kN - 1))); }
 double node_roughness(int j) { return std::pow(double(brdf::kSharpestFitted), 1.0 - double(j) / (kN - 1)); }
 
 /// Parameters of one reflectance: log₂(ρ/r), κ at either end of the sweep, w_E; of four levels a₁ and a₂ too.
 LobeSweep to_sweep(const double* p, bool four) {
-    const double length = four ? 3.0 : 2.0;  ///< in levels
+    const double length = four ? 3.0 : 1.0;  ///< in levels
     LobeSweep sweep{float(p[0]), float(0.5 * (p[1] + p[2])), float((p[2] - p[1]) / length), float(p[3])};
     if (four) sweep.lean = {float(p[4]), float(p[5])};
     return sweep;
@@ -69,7 +72,7 @@ public:
             double sum = 0.0;
             for (int k = 0; k < kN * kN; ++k)
                 sum += improve(pass % 2 ? kN * kN - 1 - k : k, settings_.smoothness * easing);
-            settings_.progress(four ? "four levels" : "three levels", pass + 1, settings_.passes,
+            settings_.progress(four ? "four levels" : "two levels", pass + 1, settings_.passes,
                                sum / (kN * kN));
         }
         return nodes_;
@@ -113,7 +116,7 @@ private:
         for (int c = 0; c < kN * kN; ++c) {
             const double r = node_roughness(c / kN), alpha = r * r;
             const double smooth = 1.0 - alpha, turned = 1.0 - smooth * (std::sqrt(smooth) + alpha);
-            const double aside = (four_ ? 0.5 : 0.33) * std::min(0.5, alpha + 0.02);
+            const double aside = (four_ ? 0.5 : 0.07) * std::min(0.5, alpha + 0.02);
             for (int half = 0; half < 2; ++half) {
                 double* p = &nodes_[c][std::size_t(half) * per_];
                 p[0] = -0.1;
@@ -186,6 +189,12 @@ private:
                               std::min(1.5, level - std::log2(roughness)));
             for (const int end : {1, 2})
                 q[end] = std::clamp(q[end], -std::min(3.0, widest), std::min(4.0, widest));
+            if (!four_) {
+                const double most = 0.5 * kMostSlope, middle = 0.5 * (q[1] + q[2]);
+                const double half_length = std::clamp(0.5 * (q[2] - q[1]), -most, most);
+                q[1] = middle - half_length;
+                q[2] = middle + half_length;
+            }
             q[3] = std::clamp(q[3], 0.0, 1.0);
             constexpr double kMostLean[] = {4.0, 1.0};  // more of a₂ leaves little of the spline's evenness
             for (int k = 4; k < per_; ++k) q[k] = std::clamp(q[k], -kMostLean[k - 4], kMostLean[k - 4]);
@@ -300,14 +309,14 @@ Lanes lobe_radiance(const FitLight& light, const LobeSweep& sweep, bool four, co
 
 std::vector<LobePair> fit_lobes(const FitLight& light, const FitSettings& settings) {
     Fitter fitter(light, settings);
-    const std::vector<Step> three = fitter.fit(false), four = fitter.fit(true);
-    std::vector<LobePair> result(three.size());
+    const std::vector<Step> two = fitter.fit(false), four = fitter.fit(true);
+    std::vector<LobePair> result(two.size());
     const auto sweep_of = [](const Step& node, std::size_t half, bool is_four) {
         return to_sweep(&node[half * Fitter::parameters_of(is_four)], is_four);
     };
-    for (std::size_t c = 0; c < three.size(); ++c)
+    for (std::size_t c = 0; c < two.size(); ++c)
         for (std::size_t half = 0; half < 2; ++half)
-            result[c].by_reflectance[half] = {sweep_of(three[c], half, false), sweep_of(four[c], half, true)};
+            result[c].by_reflectance[half] = {sweep_of(two[c], half, false), sweep_of(four[c], half, true)};
     return result;
 }
 

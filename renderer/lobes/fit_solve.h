@@ -29,7 +29,7 @@ struct LobeView {
     float roughness;
 };
 
-/// P of one point by a sweep; four: over four levels instead of three.
+/// P of one point by a sweep; four: over four levels instead of two.
 Lanes lobe_radiance(const FitLight& light, const LobeSweep& sweep, bool four, const LobeView& view);
 
 }  // namespace patina::lobes

@@ -23,7 +23,7 @@ LobeSweep mixed(const LobeSweep& a, const LobeSweep& b, float share) {
 }
 
 LobeNode mixed(const LobeNode& a, const LobeNode& b, float share) {
-    return {mixed(a.three, b.three, share), mixed(a.four, b.four, share)};
+    return {mixed(a.two, b.two, share), mixed(a.four, b.four, share)};
 }
 
 /// Where in the table, in nodes.
@@ -50,13 +50,13 @@ LobeNode lobe_at(std::span<const LobePair> nodes, float NoV, float roughness, fl
 }
 
 std::array<SweptLevel, 4> swept_levels(const LobeSweep& sweep, float level, bool four) {
-    const float second = std::floor(four ? level : level + 0.5f), beyond = level - second;
+    const float second = std::floor(level), within = level - second;
     const glm::vec4 weights =
-        four ? brdf::four_weights(beyond, sweep.lean) : glm::vec4(brdf::three_weights(beyond), 0.0f);
+        four ? brdf::sweep_weights(within, sweep.lean) : glm::vec4(0.0f, 1.0f - within, within, 0.0f);
     std::array<SweptLevel, 4> levels;
     for (int i = 0; i < 4; ++i)
         levels[i] = {int(second) + i - 1, (1.0f - sweep.irradiance) * weights[i],
-                     sweep.kappa + sweep.slope * (float(i - 1) - beyond)};
+                     sweep.kappa + sweep.slope * (float(i - 1) - within)};
     return levels;
 }
 
@@ -66,14 +66,13 @@ LobeReach lobe_reach(float lowest_roughness, float highest_roughness, bool four_
     float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
     for (int k = first * kLobeTableSize; k < (last + 1) * kLobeTableSize; ++k) {
         for (const LobeNode& node : kNodes[k].by_reflectance) {
-            const float ratio = four_levels ? node.four.log2_ratio : node.three.log2_ratio;
+            const float ratio = four_levels ? node.four.log2_ratio : node.two.log2_ratio;
             low = std::min(low, ratio);
             high = std::max(high, ratio);
         }
     }
-    // Beside the two levels around the middle: of four, the next on either side; of three, the nearer of
-    // these.
-    const float beside = (four_levels ? 1.0f : 0.5f) / brdf::kLevelsPerOctave;
+    // Four levels are the two around the middle and one more on either side.
+    const float beside = four_levels ? 1.0f / brdf::kLevelsPerOctave : 0.0f;
     return {std::exp2(low - beside), std::exp2(high + beside)};
 }
 

@@ -23,8 +23,8 @@ struct LobeSweep {
 
 /// For one F0.
 struct LobeNode {
-    LobeSweep three;  ///< over three levels
-    LobeSweep four;   ///< over four
+    LobeSweep two;   ///< over two levels
+    LobeSweep four;  ///< over four
 };
 
 struct LobePair {
@@ -46,7 +46,7 @@ struct SweptLevel {
     float weight = 0.0f;  ///< of the sweep's, which sum to 1 − irradiance
     float kappa = 0.0f;
 };
-/// Equation (3) around a continuous index of levels; of three levels the last has no weight.
+/// Equation (3) around a continuous index of levels; of two levels, the first and the last have no weight.
 std::array<SweptLevel, 4> swept_levels(const LobeSweep& sweep, float level, bool four);
 
 /// Bounds of the swept levels' roughness over the surface's, for surfaces between two roughnesses, where

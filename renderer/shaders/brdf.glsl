@@ -30,11 +30,11 @@
 // l(ρ) the levels' continuous index, 0, 1, 2, … at the roughness of each (level_index in light.glsl), and o = m − l(ρ) how
 // far level m lies from the middle of the sweep,
 //     P ≈ (1 − w_E) Σ_m w(o) · level(m) along R + (κ + λ o) α (N − R)  +  w_E · E(N)/π,   Σ w = 1           (3)
-//     standard:      w = B₂(o)                                       three levels, |o| < 3/2
+//     standard:      w = 1 − |o|                                     two levels, |o| < 1
 //     high quality:  w ∝ B₃(o) · 2^(a₁ o + a₂ o²)                    four levels, |o| < 2
-// λ draws the lobe out, a₁ and a₂ say where along it the light is. The B-splines B₂ and B₃ vanish with their first derivatives
-// where levels enter and leave, so P is smooth in ρ; and their mean square Σ w o² is the same (1/4, 1/3) wherever l lies
-// between two levels, so the lobe is as long everywhere. Two levels mixed linearly are from 0 to 1/4 long: bands. Beyond either end of the list the last level is read along
+// λ draws the lobe out, a₁ and a₂ say where along it the light is. w vanishes where levels enter and leave, so P is continuous in
+// ρ; the cubic B-spline B₃ does so with two derivatives, and its mean square Σ w o² is 1/3 wherever l lies between two levels,
+// so that the lobe is as long everywhere. Of two levels it is between 0 and 1/4, so their λ is kept small. Beyond either end of the list the last level is read along
 // several directions. log₂(ρ/r), κ, λ, a and w_E are read from a table over (√NoV, log r), fitted once for F0 = 1 and once
 // for 0.04 on standard levels (renderer/lobes/): at grazing angles Schlick's Fc cuts the lobe's steep side away. Between the
 // two they are mixed by φ, the share of the reflected energy that Fc carries,
@@ -163,13 +163,8 @@ PATINA_FN vec3 swept_direction(vec3 R, vec3 N, float kappa, float alpha) { retur
 // Of the standard levels, which are evenly spaced in the logarithm of roughness: fifteen to a factor of ten.
 const float kLevelsPerOctave = 4.5154499f;
 
-// w of (3) for the three levels around l, which lies `beyond` the second, −½…½: o = (−1, 0, 1) − beyond.
-PATINA_FN vec3 three_weights(float beyond) {
-    return vec3(0.5f * square(0.5f - beyond), 0.75f - beyond * beyond, 0.5f * square(0.5f + beyond));
-}
-
 // w of (3) for the four levels around l, a fraction `within` beyond the second: o = (−1, 0, 1, 2) − within. lean: a₁, a₂.
-PATINA_FN vec4 four_weights(float within, vec2 lean) {
+PATINA_FN vec4 sweep_weights(float within, vec2 lean) {
     float left = 1.0f - within;
     vec4 spline = vec4(left * left * left, 4.0f - (6.0f - 3.0f * within) * within * within,
                        4.0f - (6.0f - 3.0f * left) * left * left, within * within * within);

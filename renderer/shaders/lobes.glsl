@@ -33,13 +33,13 @@ vec3 swept_light(LobePoint p, float log2_roughness) {
     vec4 sweep = lobe_slice(p, log2_roughness, 2.0);
     float level = level_index(log2_roughness + sweep.x);
     float first = floor(level) - 1.0;
-    vec4 weights = four_weights(level - 1.0 - first, lobe_slice(p, log2_roughness, 4.0).xy);
+    vec4 weights = sweep_weights(level - 1.0 - first, lobe_slice(p, log2_roughness, 4.0).xy);
 #else
-    const int count = 3;
+    const int count = 2;
     vec4 sweep = lobe_slice(p, log2_roughness, 0.0);
     float level = level_index(log2_roughness + sweep.x);
-    float first = floor(level + 0.5) - 1.0;
-    vec3 weights = three_weights(level - 1.0 - first);
+    float first = floor(level);
+    vec2 weights = vec2(first + 1.0 - level, level - first);
 #endif
     vec3 light = vec3(0.0);
     for (int i = 0; i < count; ++i) {

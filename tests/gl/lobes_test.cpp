@@ -51,7 +51,7 @@ glm::vec3 expected_light(const Case& c, glm::vec3 N, glm::vec3 V) {
         lobe_at(lobe_nodes(), c.NoV, c.roughness, brdf::fresnel_share(brdf::luminance(F0), ab));
     const glm::vec3 R = glm::reflect(-V, N);
     const bool four = c.quality == Quality::High;
-    const LobeSweep& sweep = four ? lobe.four : lobe.three;
+    const LobeSweep& sweep = four ? lobe.four : lobe.two;
     const std::vector<float> standard = standard_roughness_levels();
     const float level = 15.0f * (1.0f + std::log10(c.roughness * std::exp2(sweep.log2_ratio)));
     const glm::vec3 irradiance = linear_radiance(N, linear_slope(1.0f));

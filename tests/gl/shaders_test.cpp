@@ -200,11 +200,9 @@ TEST(Shaders, the_lobes_formulas_are_the_same_on_both_sides) {
         [](glm::vec2 p) {
             return brdf::swept_direction({p.x, 0.3f, -p.y}, {0.0f, 1.0f, 0.0f}, 3.0f * p.y - 1.0f, p.x);
         });
-    expect_agreement(brdf, "vec4(three_weights(p.x - 0.5), 1.0)",
-                     [](glm::vec2 p) { return brdf::three_weights(p.x - 0.5f); });
-    expect_agreement(brdf, "vec4(four_weights(p.x, vec2(8.0 * p.y - 4.0, 2.0 - 3.0 * p.y)).yzw, 1.0)",
+    expect_agreement(brdf, "vec4(sweep_weights(p.x, vec2(8.0 * p.y - 4.0, 2.0 - 3.0 * p.y)).yzw, 1.0)",
                      [](glm::vec2 p) {
-                         const glm::vec4 w = brdf::four_weights(p.x, {8.0f * p.y - 4.0f, 2.0f - 3.0f * p.y});
+                         const glm::vec4 w = brdf::sweep_weights(p.x, {8.0f * p.y - 4.0f, 2.0f - 3.0f * p.y});
                          return glm::vec3(w.y, w.z, w.w);
                      });
     expect_agreement(brdf, "vec4(multi_bounce_occlusion(p.x, vec3(0.1, p.y, 0.9)), 1.0)", [](glm::vec2 p) {
