@@ -26,7 +26,7 @@ enum class Feature : Features {
     Course = 1u << 8,       ///< the lecture's formulas
     Debug = 1u << 9,        ///< one ingredient instead of the picture; implies Sharp and Emission
     Fitted = 1u << 10,      ///< fitted lobes; excludes Course
-    FourLevels = 1u << 11,  ///< of four levels instead of three; implies Fitted
+    FourLevels = 1u << 11,  ///< of four levels instead of two; implies Fitted
 };
 
 inline bool has(Features features, Feature feature) { return (features & Features(feature)) != 0; }

@@ -11,7 +11,7 @@
 namespace patina {
 
 enum class Shading { Course, SplitSum, Fitted, Reference };
-/// Of fitted shading: lobes swept over three prefiltered levels, or over four.
+/// Of fitted shading: lobes swept over two prefiltered levels, or over four.
 enum class Quality { Standard, High };
 enum class Tonemap { None, Neutral, Aces };
 enum class Background { Environment, Blurred, Plain };
@@ -71,9 +71,9 @@ inline constexpr std::array kShadings{
 };
 inline constexpr std::array kQualities{
     Named<Quality>{Quality::Standard, "standard", "Standard",
-                   "Fitted lobes with three looks into the prefiltered light."},
+                   "Fitted lobes with two looks into the prefiltered light."},
     Named<Quality>{Quality::High, "high", "High",
-                   "Fitted lobes with four looks: closer to the integral, at a fifth more."},
+                   "Fitted lobes with four looks: closer to the integral, at a third more."},
 };
 inline constexpr std::array kTonemaps{
     Named<Tonemap>{Tonemap::None, "none", "None",
