@@ -285,7 +285,7 @@ void Loop::remember_window() {
     settings.drawer_height = editor_.ui.drawer_height;
     settings.show_library = editor_.ui.show_library;
     settings.show_inspector = editor_.ui.show_inspector;
-    if (settings == remembered_.settings) return;
+    if (settings == remembered_.settings && remembered_.notes.empty()) return;  // a broken file is replaced
     save_settings(state_folder(), settings);
 }
 
