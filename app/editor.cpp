@@ -126,6 +126,8 @@ void Loop::think() {
 
 bool Loop::needs_frame() const {
     if (!is_seen_) return false;
+    // What the first picture lacks is uploaded before the interface is drawn once more without it.
+    if (!has_drawn_ && more_uploads_ && window_.frames() > 0 && !editor_.document.sheet) return false;
     return frames_wanted_ > 0 || animating_ || window_.time_s() >= redraw_at_s_ ||
            (!editor_.document.sheet && meter_.busy()) || editor_.changes != changes_shown_ ||
            editor_.thumbnails.version() != thumbnails_shown_ || jobs_.running() != jobs_shown_ ||
@@ -188,6 +190,7 @@ void Loop::frame() {
                              .mesh_info = editor_.reconciler.mesh_info(),
                              .environment_info = editor_.reconciler.environment_info(),
                              .panels = editor_.registry.panels};
+    if (!has_drawn_) draw_view(place_px_);  // the first one is seen in this frame, not in the next
     context.sheet = editor_.document.sheet ? &*editor_.document.sheet : nullptr;
     fill_sheet(context);
     fill_viewport(context.viewport);
@@ -223,9 +226,9 @@ void Loop::after_frame(const ui::PanelContext& context) {
     carry_out(editor_, context.requests);
     settle(editor_, context.result.item_active || context.result.viewport_active);
     update_reconciler();
-    draw_view(context.result.viewport_size_px);
-    measure_view(context.result.viewport_size_px,
-                 context.result.item_active || context.result.viewport_active);
+    place_px_ = context.result.viewport_size_px;
+    if (has_drawn_) draw_view(place_px_);
+    measure_view(place_px_, context.result.item_active || context.result.viewport_active);
     draw_sheet(context.result.sheet);
     std::vector<DrawnPhotoView> drawn;
     for (const int seen : sheet_seen_) {
@@ -282,7 +285,7 @@ void Loop::remember_window() {
     settings.drawer_height = editor_.ui.drawer_height;
     settings.show_library = editor_.ui.show_library;
     settings.show_inspector = editor_.ui.show_inspector;
-    if (settings == remembered_.settings) return;
+    if (settings == remembered_.settings && remembered_.notes.empty()) return;  // a broken file is replaced
     save_settings(state_folder(), settings);
 }
 

@@ -82,7 +82,8 @@ private:
     AccuracyMeter meter_;
     TargetHandle target_;  ///< what is shown, one of targets_
     std::array<TargetHandle, kPaces> targets_;
-    glm::ivec2 size_px_{0};  ///< of the picture on the screen
+    glm::ivec2 size_px_{0};   ///< of the picture on the screen
+    glm::ivec2 place_px_{0};  ///< that the last frame had for it
     ViewPace pace_;
     Pace shown_ = Pace::Good;
     double changed_s_ = 0.0;        ///< when the picture was last another one

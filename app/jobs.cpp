@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <future>
 #include <limits>
 #include <mutex>
 #include <thread>
@@ -298,6 +299,10 @@ std::vector<Jobs::Status> Jobs::running() const {
 ParallelFor Jobs::parallel_for() const {
     return
         [state = state_](int count, const std::function<void(int)>& body) { state->run_loop(count, body); };
+}
+
+std::function<void()> begin_beside(std::function<void()> work) {
+    return [done = std::async(std::launch::async, std::move(work)).share()] { done.get(); };
 }
 
 int worker_count() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }

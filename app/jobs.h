@@ -65,6 +65,9 @@ private:
     std::shared_ptr<State> state_;
 };
 
+/// work goes on beside, on a thread of its own. What is returned waits for it and rethrows what it threw.
+std::function<void()> begin_beside(std::function<void()> work);
+
 /// As many workers as the machine has cores.
 int worker_count();
 

@@ -79,10 +79,11 @@ Image Studio::picture(Scene scene, glm::ivec2 size_px, bool radiance, Reuse reus
     if (is_reference(scene.view)) return read(*draw_reference(scene, size_px), radiance);
     Image whole = make_image(size_px.x, size_px.y, 3, radiance ? PixelType::F32 : PixelType::U8);
     const int rows = Renderer::rows_at_once(scene, size_px);
+    // The last part is as high as the others, and drawn over one of them: one target serves all.
+    const glm::ivec2 part_px{size_px.x, std::min(rows, size_px.y)};
     for (int top = size_px.y; top > 0; top -= rows) {
-        const int bottom = std::max(top - rows, 0);
+        const int bottom = std::max(top - part_px.y, 0);
         scene.crop = {size_px, {0, bottom}};
-        const glm::ivec2 part_px{size_px.x, top - bottom};
         RenderTarget& target = target_of(part_px);
         if (Renderer::size_px(target) != part_px)
             throw std::runtime_error("The graphics driver draws at most " +
@@ -91,8 +92,9 @@ Image Studio::picture(Scene scene, glm::ivec2 size_px, bool radiance, Reuse reus
         renderer.draw(scene, target, reuse);
         const Image part = read(target, radiance);
         const std::size_t row_bytes = part.bytes.size() / std::size_t(part.height);
-        std::ranges::copy(part.bytes,
-                          whole.bytes.begin() + std::ptrdiff_t(row_bytes * std::size_t(size_px.y - top)));
+        std::ranges::copy(
+            part.bytes,
+            whole.bytes.begin() + std::ptrdiff_t(row_bytes * std::size_t(size_px.y - bottom - part_px.y)));
     }
     return whole;
 }

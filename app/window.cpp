@@ -1,5 +1,6 @@
 #include "app/window.h"
 
+#include "app/jobs.h"
 #include "ui/workspace.h"
 
 #define GLFW_INCLUDE_NONE
@@ -39,6 +40,7 @@ std::string last_glfw_error() {
 
 struct Window::State {
     GLFWwindow* window = nullptr;
+    ImFontAtlas fonts;
     bool driven = false;
     WindowEvents events;
     std::deque<KeyEvent> keys;  ///< delivered so that a key changes at most once a frame
@@ -57,10 +59,23 @@ struct Window::State {
 
 namespace {
 
-GLFWwindow* open_window(const WindowOptions& options) {
+void begin_glfw() {
     if (!glfwInit())
         throw std::runtime_error("No window can be opened: " + last_glfw_error() +
                                  ". `patina render` works without a display.");
+}
+
+float whole_scale(float scale) { return std::clamp(std::round(scale * 4.0f) / 4.0f, 1.0f, 4.0f); }
+
+/// Of a window on the main monitor: where most are opened.
+float likely_font_scale() {
+    glm::vec2 scale(1.0f);
+    if (GLFWmonitor* monitor = glfwGetPrimaryMonitor())
+        glfwGetMonitorContentScale(monitor, &scale.x, &scale.y);
+    return whole_scale(scale.x);
+}
+
+GLFWwindow* open_window(const WindowOptions& options) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 1);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -87,6 +102,18 @@ GLFWwindow* open_window(const WindowOptions& options) {
             ". Update the graphics driver, or set LIBGL_ALWAYS_SOFTWARE=1 to draw in software.");
     }
     return window;
+}
+
+/// Of the texture's edges nothing is drawn, but a software renderer compiles the interface's shader for each
+/// way to look one up.
+void look_up_fonts_as_pictures() {
+    GLint bound = 0;
+    glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
+    glBindTexture(GL_TEXTURE_2D, GLuint(reinterpret_cast<std::uintptr_t>(ImGui::GetIO().Fonts->TexID)));
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    glBindTexture(GL_TEXTURE_2D, GLuint(bound));
 }
 
 /// A small display may be smaller than the window that was asked for.
@@ -178,10 +205,14 @@ void Window::State::measure_scale(float& interface, float& framebuffer) const {
     glfwGetFramebufferSize(window, &pixels.x, &pixels.y);
     glfwGetWindowContentScale(window, &content.x, &content.y);
     framebuffer = size.x > 0 ? float(pixels.x) / float(size.x) : 1.0f;
-    interface = std::clamp(std::round(content.x / framebuffer * 4.0f) / 4.0f, 1.0f, 4.0f);
+    interface = whole_scale(content.x / framebuffer);
 }
 
 Window::Window(const WindowOptions& options) : state_(std::make_unique<State>()) {
+    begin_glfw();
+    // The driver takes as long to open a window as the fonts take.
+    const auto wait_for_fonts = begin_beside(
+        [&fonts = state_->fonts, scale = likely_font_scale()] { ui::build_fonts(fonts, scale); });
     state_->window = open_window(options);
     state_->driven = options.driven;
     fit_to_monitor(state_->window);
@@ -189,7 +220,8 @@ Window::Window(const WindowOptions& options) : state_(std::make_unique<State>())
     glfwSwapInterval(1);
     state_->tells_loss = epoxy_has_gl_extension("GL_ARB_robustness");
     IMGUI_CHECKVERSION();
-    ImGui::CreateContext();
+    wait_for_fonts();
+    ImGui::CreateContext(&state_->fonts);
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.ConfigWindowsMoveFromTitleBarOnly = true;
@@ -198,6 +230,8 @@ Window::Window(const WindowOptions& options) : state_(std::make_unique<State>())
     ImGui_ImplOpenGL3_Init("#version 410 core");
     state_->measure_scale(state_->scale, state_->framebuffer_scale);
     ui::apply_theme(state_->scale, state_->framebuffer_scale);
+    ImGui_ImplOpenGL3_CreateDeviceObjects();
+    look_up_fonts_as_pictures();
     if (state_->driven) ImGui_ImplGlfw_WindowFocusCallback(state_->window, GLFW_TRUE);
     state_->events.any = true;
 }
@@ -206,6 +240,7 @@ Window::~Window() {
     ImGui_ImplOpenGL3_Shutdown();
     ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
+    state_->fonts.Locked = false;  // by a frame that an exception ended
     glfwDestroyWindow(state_->window);
     glfwTerminate();
 }
@@ -304,6 +339,7 @@ bool Window::follow_scale() {
     ui::apply_theme(scale, framebuffer);
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
+    look_up_fonts_as_pictures();
     return true;
 }
 

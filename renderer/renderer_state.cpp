@@ -104,6 +104,7 @@ gl::Program Renderer::State::compiled(const char* vertex, const char* fragment,
             return kept;
         }
     ++work.programs_compiled;
+    glFlush();  // software draws what was asked for so far while it compiles
     gl::Program program = gl::make_program(text);
     if (!key.empty())
         if (const std::vector<std::byte> bytes = gl::to_bytes(program); !bytes.empty())

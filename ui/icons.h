@@ -3,34 +3,47 @@
 
 namespace patina::ui::icon {
 
-inline constexpr const char* kAdd = "\uf067";
-inline constexpr const char* kBack = "\uf060";
-inline constexpr const char* kBrowse = "\uf115";
-inline constexpr const char* kCamera = "\uf030";
-inline constexpr const char* kCheck = "\uf00c";
-inline constexpr const char* kClose = "\uf00d";
-inline constexpr const char* kCube = "\uf1b2";
-inline constexpr const char* kCopy = "\uf0c5";
-inline constexpr const char* kDown = "\uf107";
-inline constexpr const char* kError = "\uf06a";
-inline constexpr const char* kExposure = "\uf042";
-inline constexpr const char* kEye = "\uf06e";
-inline constexpr const char* kFile = "\uf016";
-inline constexpr const char* kFolder = "\uf07b";
-inline constexpr const char* kGrid = "\uf009";
-inline constexpr const char* kImage = "\uf03e";
-inline constexpr const char* kInfo = "\uf05a";
-inline constexpr const char* kLight = "\uf185";
-inline constexpr const char* kLocate = "\uf041";
-inline constexpr const char* kMaterial = "\uf1fc";
-inline constexpr const char* kPlus = "\uf067";
-inline constexpr const char* kReload = "\uf021";
-inline constexpr const char* kReset = "\uf0e2";
-inline constexpr const char* kSearch = "\uf002";
-inline constexpr const char* kTrash = "\uf1f8";
-inline constexpr const char* kUp = "\uf106";
-inline constexpr const char* kParent = "\uf062";
-inline constexpr const char* kWarning = "\uf071";
-inline constexpr const char* kWorking = "\uf254";
+// clang-format off
+#define PATINA_ICONS(ICON) \
+    ICON(kAdd, "\uf067") \
+    ICON(kBack, "\uf060") \
+    ICON(kBrowse, "\uf115") \
+    ICON(kCamera, "\uf030") \
+    ICON(kCheck, "\uf00c") \
+    ICON(kClose, "\uf00d") \
+    ICON(kCube, "\uf1b2") \
+    ICON(kCopy, "\uf0c5") \
+    ICON(kDown, "\uf107") \
+    ICON(kError, "\uf06a") \
+    ICON(kExposure, "\uf042") \
+    ICON(kEye, "\uf06e") \
+    ICON(kFile, "\uf016") \
+    ICON(kFolder, "\uf07b") \
+    ICON(kGrid, "\uf009") \
+    ICON(kImage, "\uf03e") \
+    ICON(kInfo, "\uf05a") \
+    ICON(kLight, "\uf185") \
+    ICON(kLocate, "\uf041") \
+    ICON(kMaterial, "\uf1fc") \
+    ICON(kPlus, "\uf067") \
+    ICON(kReload, "\uf021") \
+    ICON(kReset, "\uf0e2") \
+    ICON(kSearch, "\uf002") \
+    ICON(kTrash, "\uf1f8") \
+    ICON(kUp, "\uf106") \
+    ICON(kParent, "\uf062") \
+    ICON(kWarning, "\uf071") \
+    ICON(kWorking, "\uf254")
+// clang-format on
+
+#define PATINA_ICON_NAME(name, text) inline constexpr const char* name = text;
+PATINA_ICONS(PATINA_ICON_NAME)
+#undef PATINA_ICON_NAME
+
+#define PATINA_ICON_TEXT(name, text) text
+/// All of them in a row: of the font's others none is drawn.
+inline constexpr const char* kAll = PATINA_ICONS(PATINA_ICON_TEXT);
+#undef PATINA_ICON_TEXT
+#undef PATINA_ICONS
 
 }  // namespace patina::ui::icon

@@ -1,5 +1,6 @@
 #include "ui/theme.h"
 
+#include "ui/icons.h"
 #include "ui/workspace.h"
 
 #include <imgui.h>
@@ -46,7 +47,6 @@ constexpr ImWchar kAllRanges[] = {
     0x2212, 0x2212, 0x2248, 0x2248, 0x2260, 0x2265,  //
     0x2318, 0x2318, 0,
 };
-constexpr ImWchar kIconRanges[] = {0xf000, 0xf2e0, 0};
 
 void add_font(ImFontAtlas& atlas, std::string_view file, float size_px, const ImWchar* ranges, bool icons) {
     const std::span<const unsigned char> bytes = embedded::fonts(file);
@@ -66,17 +66,29 @@ void add_font(ImFontAtlas& atlas, std::string_view file, float size_px, const Im
                                size_px, &config, ranges);
 }
 
+}  // namespace
+
+/// No side is a power of two, like those of most pictures: a software renderer compiles the interface's
+/// shader anew for those that are.
 void build_fonts(ImFontAtlas& atlas, float scale) {
+    if (atlas.IsBuilt() && atlas.ConfigData.front().SizePixels == std::round(kFaceRows[0].size * scale))
+        return;
     atlas.Clear();
     atlas.Flags |= ImFontAtlasFlags_NoPowerOfTwoHeight;
-    atlas.TexDesiredWidth = scale > 1.6f ? 4096 : 2048;
+    atlas.TexDesiredWidth = scale > 1.6f ? 4000 : 2000;
+    ImFontGlyphRangesBuilder icons;
+    icons.AddText(icon::kAll);
+    ImVector<ImWchar> icon_ranges;
+    icons.BuildRanges(&icon_ranges);
     for (const FaceRow& face : kFaceRows) {
         const float size = std::round(face.size * scale);
         add_font(atlas, face.file, size, face.every_script ? kAllRanges : kCommonRanges, false);
-        add_font(atlas, "fontawesome-webfont.ttf", std::round(size * 0.93f), kIconRanges, true);
+        add_font(atlas, "fontawesome-webfont.ttf", std::round(size * 0.93f), icon_ranges.Data, true);
     }
     atlas.Build();
 }
+
+namespace {
 
 void set_color(ImGuiCol slot, ImU32 value) {
     ImGui::GetStyle().Colors[slot] = ImGui::ColorConvertU32ToFloat4(value);

@@ -1,6 +1,7 @@
 #include "ui/workspace.h"
 
 #include "ui/dialogs.h"
+#include "ui/icons.h"
 #include "ui/layout.h"
 #include "ui/panels.h"
 #include "ui/shortcuts.h"
@@ -54,7 +55,7 @@ void draw_drawer(PanelContext& context, const Rect& rect) {
     tab_strip(context, "drawer", tabs, context.ui.drawer);
     ImGui::EndChild();
     ImGui::SetCursorScreenPos({rect.x1 - px(36), rect.y0 + px(5)});
-    const bool close = icon_button(context, "drawer.close", "\uf107", "Close the drawer (Esc).");
+    const bool close = icon_button(context, "drawer.close", icon::kDown, "Close the drawer (Esc).");
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(12), px(8)));
     ImGui::SetCursorScreenPos({rect.x0, rect.y0 + px(33)});
     ImGui::BeginChild(context.ui.drawer.c_str(), {0.0f, 0.0f}, false,

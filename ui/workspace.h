@@ -5,6 +5,8 @@
 
 #include <vector>
 
+struct ImFontAtlas;
+
 namespace patina::ui {
 
 /// The panels that ship: presets, environments, meshes · material, light, view · log.
@@ -16,6 +18,10 @@ void draw_workspace(PanelContext& context);
 
 /// Opens the file browser for a purpose and asks for its folder.
 void open_browser(PanelContext& context, BrowserPurpose purpose, MapSlot slot = MapSlot::Albedo);
+
+/// Draws the fonts' characters unless they are there in this size, in pixels of the screen per one at 96 dpi.
+/// Needs no ImGui context.
+void build_fonts(ImFontAtlas& atlas, float scale);
 
 /// Sets style and fonts of the current ImGui context; the font texture has to be uploaded again afterwards.
 /// scale: of the interface (1 = 96 dpi). framebuffer_scale: pixels a display unit (2 on a Retina Mac, else

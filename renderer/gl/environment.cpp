@@ -47,10 +47,12 @@ void share_panorama(const GpuEnvironment& other, GpuEnvironment& result) {
 
 void make_levels(const LightLevels& light, GpuEnvironment& result) {
     const int base = light.levels.front().size;
-    const int mips = (int(light.levels.size()) + light.layers - 1) / light.layers;
+    // Two at least, even if nothing lies in the second: for a texture without mips a software renderer would
+    // compile the shaders that read it anew.
+    const int mips = std::max((int(light.levels.size()) + light.layers - 1) / light.layers, base > 1 ? 2 : 1);
     result.levels = Texture::make();
     glBindTexture(GL_TEXTURE_CUBE_MAP_ARRAY, result.levels.name());
-    set_cube_filter(GL_TEXTURE_CUBE_MAP_ARRAY, mips > 1 ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR, mips);
+    set_cube_filter(GL_TEXTURE_CUBE_MAP_ARRAY, GL_LINEAR_MIPMAP_NEAREST, mips);
     for (int mip = 0; mip < mips; ++mip) {
         const int size = std::max(base >> mip, 1);
         glTexImage3D(GL_TEXTURE_CUBE_MAP_ARRAY, mip, GL_RGBA16F, size, size, 6 * light.layers, 0, GL_RGBA,

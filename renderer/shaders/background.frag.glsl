@@ -45,12 +45,14 @@ vec4 smooth_texel(vec2 at) {
 }
 
 // Fades in from as many texels as pixels to half as many.
-vec3 background_light(vec3 d, float solid_angle, vec3 lights) {
-    vec3 plain = panorama_light(d, solid_angle, lights);
+vec3 background_light(vec3 d, float solid_angle) {
+    vec2 at = panorama_coordinates(d);
+    vec4 texel = panorama_texel(at, solid_angle);
     float magnified = clamp(-0.5 * log2(max(solid_angle, 1e-16)) - log2(env_scale.w), 0.0, 1.0);
-    if (magnified == 0.0) return plain;
-    vec4 texel = smooth_texel(panorama_coordinates(d));
-    return mix(plain, (texel.rgb + texel.a * lights) * env_scale.x, magnified);
+    if (magnified > 0.0) texel = mix(texel, smooth_texel(at), magnified);
+    vec3 light = texel.rgb;
+    if (texel.a > 0.0) light += texel.a * light_color(d);
+    return light * env_scale.x;
 }
 #endif
 
@@ -63,7 +65,7 @@ void main() {
 #ifdef HAS_BLUR
     vec3 color = prefiltered_light(d, log2(ray_up.w)) + blurred_lights(d, square(square(ray_up.w)));
 #else
-    vec3 color = background_light(d, ray_center.w, light_color(d));
+    vec3 color = background_light(d, ray_center.w);
 #endif
     picture_color = vec4(min(color, vec3(ray_right.w)), 1.0);
 }

@@ -18,10 +18,15 @@ vec2 panorama_coordinates(vec3 d) {
 
 // The panorama averaged over a solid angle. Its mip levels average over isotropic patches of the sphere, poles included
 // (gl/panorama.cpp), so the level is the patch's width in texels and needs no derivative: no seam at u = 0. Alpha is what
-// the extracted lights hold beyond the red, green and blue; `lights` is how much of it is wanted, in their colour.
-vec3 panorama_light(vec3 d, float solid_angle, vec3 lights) {
+// the extracted lights hold beyond the red, green and blue.
+vec4 panorama_texel(vec2 at, float solid_angle) {
     float lod = 0.5 * log2(max(solid_angle, 1e-16)) + log2(env_scale.w);
-    vec4 texel = textureLod(panorama_map, panorama_coordinates(d), max(lod, 0.0));
+    return textureLod(panorama_map, at, max(lod, 0.0));
+}
+
+// lights: how much of the extracted lights is wanted, in their colour.
+vec3 panorama_light(vec3 d, float solid_angle, vec3 lights) {
+    vec4 texel = panorama_texel(panorama_coordinates(d), solid_angle);
     return (texel.rgb + texel.a * lights) * env_scale.x;
 }
 
@@ -29,16 +34,15 @@ vec3 color_of(vec3 irradiance) { return irradiance * (3.0 / max(dot(irradiance, 
 
 // The colour of the extracted light that lies nearest to a direction, with a mean channel of 1.
 vec3 light_color(vec3 d) {
-    vec3 color = vec3(1.0);
-    float nearest = -2.0;
-    for (int i = 0; i < PATINA_MAX_LIGHTS; ++i) {
-        if (float(i) >= counts.z) break;
-        float near = dot(environment_direction(light_direction[i].xyz), d);
-        vec3 E = light_irradiance[i].rgb;
-        if (near > nearest) color = color_of(E);
-        nearest = max(nearest, near);
+    vec3 world = d.x * env_from_world[0].xyz + d.y * env_from_world[1].xyz + d.z * env_from_world[2].xyz;
+    int nearest = -1;
+    float most = -2.0;
+    for (int i = 0; i < int(counts.z); ++i) {
+        float near = dot(light_direction[i].xyz, world);
+        if (near > most) nearest = i;
+        most = max(most, near);
     }
-    return color;
+    return nearest < 0 ? vec3(1.0) : color_of(light_irradiance[nearest].rgb);
 }
 
 // d in the environment's frame.
@@ -52,11 +56,13 @@ vec3 level_light(vec3 d, float level) {
 }
 
 // 0, 1, 2, … at the roughness of each level, linear in its logarithm between, the first's or the last's beyond them. Each
-// segment of this piecewise linear map contributes its clamped share, so no search and no branch.
+// segment of this piecewise linear map contributes its clamped share, so no search and no branch. As many turns as there are
+// rows: a loop that a compiler can unroll becomes one block of code with what surrounds it, which takes a software renderer
+// half as long again.
 float bounded_level_index(float log2_roughness) {
     float level = 0.0;
-    for (int i = 0; i < PATINA_LEVEL_ROWS; ++i) {
-        if (float(4 * i) >= level_layout.x) break;
+    int rows = (int(level_layout.x) + 3) / 4;
+    for (int i = 0; i < rows; ++i) {
         level += dot(clamp(level_slope[i] * log2_roughness + level_offset[i], 0.0, 1.0), vec4(1.0));
     }
     return level;

@@ -386,6 +386,14 @@ std::uint64_t counted(const fs::path& stats, const std::string& counter) {
     return std::strtoull(text.c_str() + at + counter.size() + 3, nullptr, 10);
 }
 
+TEST(Editor, shows_the_first_picture_in_the_frame_that_draws_it) {
+    const Folder home;
+    start_small(home, 500, 360);
+    const fs::path stats = home / "stats.json";
+    EXPECT_DRIVEN(drive(home, "wait until views>0\n", {"-", "--stats", stats.string()}));
+    EXPECT_NE(read_text(stats).find("first_lit_frame"), std::string::npos);
+}
+
 TEST(Editor, decodes_an_environment_once_and_never_again) {
     const Folder home;
     start_small(home, 500, 360);
