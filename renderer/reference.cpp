@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace patina {
@@ -97,11 +98,14 @@ struct Reference::State {
     bool round_ended = false;   ///< and nothing was made of it yet
     int rows = 0;               ///< of the picture that have the next slice already
     bool by_clock = false;      ///< its steps follow one
-    double work_seconds = 0.0;  ///< of one unit of work in the last steps that did, rather more; 0: none yet
+    int gathering = 0;          ///< pixels of the mesh that do, since they were judged
+    double work_seconds = 0.0;  ///< of one unit of work, rather more; 0: not known yet
+    double slowest = 0.0;       ///< likewise, in the slice that is next: rows differ in how much they show
 
     int most_at_once() const;
     int count_at_once() const;
     double work_of(int count) const;
+    void learn(double seconds_of_work);
     int rows_within(double seconds) const;
     glm::vec2 jitter_px() const;
     void begin();
@@ -140,7 +144,7 @@ glm::vec2 Reference::State::jitter_px() const {
 void Reference::State::begin() {
     progress = {};
     round_ended = false;
-    round = judged = counted = rows = 0;
+    round = judged = counted = rows = gathering = 0;
     next = {};
     next.count = count_at_once();
     wanted = std::max(options.tolerance, kFirstTolerance);
@@ -154,8 +158,14 @@ void Reference::State::begin() {
 /// does not: the next may.
 void Reference::State::rest(const std::vector<float>& half_widths) {
     const std::vector<float> around = largest_around(half_widths, target.size);
-    for (std::size_t i = 0; i < half_widths.size(); ++i)
-        counts[2 * i + 1] = half_widths[i] >= 0.0f && double(around[i]) <= wanted ? 0.0f : 1.0f;
+    const int before = std::exchange(gathering, 0);
+    for (std::size_t i = 0; i < half_widths.size(); ++i) {
+        const bool is_mesh = half_widths[i] >= 0.0f;
+        const bool rests = is_mesh && double(around[i]) <= wanted;
+        counts[2 * i + 1] = rests ? 0.0f : 1.0f;
+        gathering += is_mesh && !rests ? 1 : 0;
+    }
+    if (before > 0 && gathering > before) work_seconds *= double(gathering) / before;  // more is wanted now
     gl::set_reference_counts(target, counts);
 }
 
@@ -267,11 +277,20 @@ void Reference::draw() {
     if (!state.progress.done && state.light) state.draw(state.target.size.y);
 }
 
-/// Of so many rows of the slice that is next: their points, and as much as six of them for what is found once
-/// a row; a slice begins with the whole mesh, which takes as much again.
+/// Of so many rows of the slice that is next: their points, and as much as three of them for what is found
+/// once a row; a slice begins with the whole mesh, which takes as much again.
 double Reference::State::work_of(int count) const {
-    constexpr double once = 6.0;
+    constexpr double once = 3.0;
     return count * (next.count + once) + (rows == 0 ? target.size.y * once : 0.0);
+}
+
+/// A step is to be judged by the slowest rows; the more pixels rest, the less the next slice takes.
+void Reference::State::learn(double seconds_of_work) {
+    slowest = std::max(slowest, seconds_of_work);
+    work_seconds = std::max(work_seconds, slowest);
+    if (rows > 0) return;
+    work_seconds = std::max(0.8 * work_seconds, slowest);
+    slowest = 0.0;
 }
 
 /// Of the slice that is next; 0: not even a few.
@@ -300,7 +319,7 @@ void Reference::draw_for(double seconds) {
         state.draw(rows);
         gl::wait_for_gpu();
         after = seconds_of(begin);
-        if (!judges) state.work_seconds = std::max((after - before) / work, 0.8 * state.work_seconds);
+        if (!judges) state.learn((after - before) / work);
     }
 }
 
