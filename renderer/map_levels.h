@@ -36,6 +36,7 @@ MapLevels make_map_levels(const Image& image, MapKind kind, ColorSpace color_spa
 class MapMaker {
 public:
     MapMaker(MapKind kind, ColorSpace color_space, int finest_side = 0);
+    ~MapMaker() = default;
     MapMaker(const MapMaker&) = delete;
     MapMaker& operator=(const MapMaker&) = delete;
     void begin(const Image& shape);                ///< once, first; its bytes do not matter

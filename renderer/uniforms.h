@@ -25,9 +25,9 @@ struct LightLayout {
     float irradiance_scale = 1.0f;
     float texels_per_radian = 1.0f;
     int layers = 1;
-    std::vector<float> roughness{1.0f};           ///< of the levels, ascending, 1 … blocks::kMaxLevels of them
-    float sharpest = 1.0f;                        ///< lobes sharper than this are made up from the panorama
-    std::vector<ExtractedLight> lights;           ///< shaded as lights
+    std::vector<float> roughness{1.0f};  ///< of the levels, ascending, 1 … blocks::kMaxLevels of them
+    float sharpest = 1.0f;               ///< lobes sharper than this are made up from the panorama
+    std::vector<ExtractedLight> lights;  ///< shaded as lights
     std::vector<ExtractedLight> panorama_lights;  ///< kept apart by the panorama
 };
 

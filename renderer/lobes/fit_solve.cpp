@@ -196,8 +196,8 @@ private:
                 q[2] = middle + half_length;
             }
             q[3] = std::clamp(q[3], 0.0, 1.0);
-            constexpr double kMostLean[] = {4.0, 1.0};  // more of a₂ leaves little of the spline's evenness
-            for (int k = 4; k < per_; ++k) q[k] = std::clamp(q[k], -kMostLean[k - 4], kMostLean[k - 4]);
+            constexpr double most_lean[] = {4.0, 1.0};  // more of a₂ leaves little of the spline's evenness
+            for (int k = 4; k < per_; ++k) q[k] = std::clamp(q[k], -most_lean[k - 4], most_lean[k - 4]);
         }
     }
 
@@ -210,8 +210,8 @@ private:
         for (int k = 0; k < n; ++k) {
             const int q = k % per_;
             const bool kappa = q == 1 || q == 2;
-            constexpr double kStiffness[] = {2.0, 1.0, 1.0, 4.0, 0.3, 0.3};
-            pull[k] = smoothness * kStiffness[q];
+            constexpr double stiffness[] = {2.0, 1.0, 1.0, 4.0, 0.3, 0.3};
+            pull[k] = smoothness * stiffness[q];
             h[k] = kappa ? std::min(0.1, 2e-3 / (roughness * roughness)) : 1e-3;
         }
         std::vector<float> before;
