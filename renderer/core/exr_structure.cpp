@@ -24,9 +24,40 @@ std::uint32_t word(Bytes bytes) {
 }
 
 struct Attribute {
-    std::string_view name;
+    std::string_view name, type;
     Bytes value;
 };
+
+/// Bytes of a list of channels as the library reads it: to the first that has no name, whatever size is told.
+std::size_t bytes_of_channels(Bytes value) {
+    constexpr std::size_t behind_name = 16;
+    std::size_t at = 0;
+    while (at < value.size() && value[at] != std::byte{0}) {
+        while (at < value.size() && value[at] != std::byte{0}) ++at;
+        at += 1 + behind_name;
+    }
+    return at + 1;
+}
+
+/// The library does not look at the size that is told of these; where it is another one, all that follows
+/// would be read as something else than what is checked here.
+bool has_its_size(const Attribute& attribute) {
+    struct Fixed {
+        std::string_view type;
+        std::size_t bytes;
+    };
+    static constexpr Fixed fixed[] = {{"box2f", 16},      {"box2i", 16},   {"chromaticities", 32},
+                                      {"compression", 1}, {"double", 8},   {"envmap", 1},
+                                      {"float", 4},       {"int", 4},      {"keycode", 28},
+                                      {"lineOrder", 1},   {"m33f", 36},    {"m33d", 72},
+                                      {"m44f", 64},       {"m44d", 128},   {"rational", 8},
+                                      {"tiledesc", 9},    {"timecode", 8}, {"v2i", 8},
+                                      {"v2f", 8},         {"v2d", 16},     {"v3i", 12},
+                                      {"v3f", 12},        {"v3d", 24}};
+    if (attribute.type == "chlist") return bytes_of_channels(attribute.value) == attribute.value.size();
+    const auto known = std::ranges::find(fixed, attribute.type, &Fixed::type);
+    return known == std::end(fixed) || known->bytes == attribute.value.size();
+}
 
 /// Rows of pixels in a block, by the number of the compression; what is not known is refused by the library.
 double rows_of_block(std::size_t compression) {
@@ -83,8 +114,10 @@ public:
         do {
             PartShape part{.tiled = !many && (version & kSingleTiled) != 0};
             std::size_t attributes = 0;
-            for (std::optional<Attribute> next; (next = attribute()) && !next->name.empty(); ++attributes)
+            for (std::optional<Attribute> next; (next = attribute()) && !next->name.empty(); ++attributes) {
+                if (!has_its_size(*next)) return {.problem = "is damaged; copy or export it again"};
                 part.take(*next);
+            }
             if (short_) return ended();
             if (attributes == 0) break;
             chunks += part.chunks();
@@ -117,7 +150,7 @@ private:
         Attribute result{.name = text()};
         if (short_) return std::nullopt;
         if (result.name.empty()) return result;
-        text();
+        result.type = text();
         if (short_ || !take(4)) return std::nullopt;
         const std::uint32_t size = word(start_.subspan(at_ - 4));
         const std::uint64_t from = at_;

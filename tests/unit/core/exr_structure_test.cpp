@@ -54,6 +54,18 @@ TEST(ExrStructure, asks_for_eight_bytes_for_each_tile) {
     EXPECT_NE(structure(file_of(kTiled, window(100, 40) + tiles(0, 0), 4096)).problem, "");
 }
 
+TEST(ExrStructure, refuses_attributes_that_the_library_would_read_to_another_end) {
+    const std::string channel = std::string("R") + '\0' + std::string(16, '\1');
+    const auto problem_of = [](const std::string& attributes) {
+        return structure(file_of(kPlain, attributes + window(9, 1) + compression(0), 4096)).problem;
+    };
+    EXPECT_EQ(problem_of(attribute("channels", "chlist", channel + '\0')), "");
+    EXPECT_NE(problem_of(attribute("channels", "chlist", channel + '\0' + "more")), "");
+    EXPECT_NE(problem_of(attribute("channels", "chlist", channel)), "");
+    EXPECT_EQ(problem_of(attribute("gamma", "float", words({1}))), "");
+    EXPECT_NE(problem_of(attribute("gamma", "float", words({1, 2}))), "");
+}
+
 TEST(ExrStructure, adds_up_the_parts_of_a_file) {
     const std::string rows = window(1, 10) + attribute("type", "string", "scanlineimage");
     const std::string tiled = window(8, 8) + tiles(4, 4) + attribute("type", "string", "tiledimage");
