@@ -12,8 +12,8 @@ constexpr float kLargestHalf = 65504.0f;
 
 /// 0…1 to the nearest of 16 bits.
 std::uint16_t rounded(float x) {
-    const float above = x * 65535.0f + 0.5f;
-    return std::uint16_t(above);
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings): never negative, and lround is slow
+    return std::uint16_t(x * 65535.0f + 0.5f);
 }
 
 float finite(float x) { return std::isfinite(x) ? std::clamp(x, -kLargestHalf, kLargestHalf) : 0.0f; }

@@ -106,6 +106,7 @@ struct Reference::State {
     int count_at_once() const;
     double work_of(int count) const;
     void learn(double seconds_of_work);
+    int fewest_rows() const { return (target.size.y + kMostSteps - 1) / kMostSteps; }
     int rows_within(double seconds) const;
     glm::vec2 jitter_px() const;
     void begin();
@@ -293,12 +294,11 @@ void Reference::State::learn(double seconds_of_work) {
     slowest = 0.0;
 }
 
-/// Of the slice that is next; 0: not even a few.
+/// Of the slice that is next; fewer than fewest_rows() are not worth a step.
 int Reference::State::rows_within(double seconds) const {
-    const int fewest = (target.size.y + kMostSteps - 1) / kMostSteps;
-    if (work_seconds <= 0.0) return 2 * fewest;
+    if (work_seconds <= 0.0) return 2 * fewest_rows();
     const double fitting = (seconds / work_seconds - work_of(0)) / (work_of(1) - work_of(0));
-    return fitting < fewest ? 0 : int(std::min(fitting, double(target.size.y)));
+    return int(std::clamp(fitting, 0.0, double(target.size.y)));
 }
 
 void Reference::draw_for(double seconds) {
@@ -311,10 +311,9 @@ void Reference::draw_for(double seconds) {
     for (bool first = true; !state.progress.done; first = false, before = after) {
         if (!first && state.judgement_due()) return;  // which takes a while, too
         const bool judges = state.judgement_due();
-        int rows = state.rows_within(seconds - before);
-        if (rows == 0 && !first) return;
-        rows =
-            std::min(std::max(rows, state.target.size.y / kMostSteps + 1), state.target.size.y - state.rows);
+        const int fitting = state.rows_within(seconds - before), fewest = state.fewest_rows();
+        if (fitting < fewest && !first) return;
+        const int rows = std::min(std::max(fitting, fewest), state.target.size.y - state.rows);
         const double work = state.work_of(rows);
         state.draw(rows);
         gl::wait_for_gpu();

@@ -32,12 +32,13 @@
 //     P ≈ (1 − w_E) Σ_m w(o) · level(m) along R + (κ + λ o) α (N − R)  +  w_E · E(N)/π,   Σ w = 1           (3)
 //     standard:      w = 1 − |o|                                     two levels, |o| < 1
 //     high quality:  w ∝ B₃(o) · 2^(a₁ o + a₂ o²)                    four levels, |o| < 2
-// λ draws the lobe out, a₁ and a₂ say where along it the light is. w vanishes where levels enter and leave, so P is continuous in
-// ρ; the cubic B-spline B₃ does so with two derivatives, and its mean square Σ w o² is 1/3 wherever l lies between two levels,
-// so that the lobe is as long everywhere. Of two levels it is between 0 and 1/4, so their λ is kept small. Beyond either end of the list the last level is read along
-// several directions. log₂(ρ/r), κ, λ, a and w_E are read from a table over (√NoV, log r), fitted once for F0 = 1 and once
-// for 0.04 on standard levels (renderer/lobes/): at grazing angles Schlick's Fc cuts the lobe's steep side away. Between the
-// two they are mixed by φ, the share of the reflected energy that Fc carries,
+// λ draws the lobe out, a₁ and a₂ say where along it the light is. w vanishes where levels enter and leave, so P is
+// continuous in ρ; the cubic B-spline B₃ does so with two derivatives, and its mean square Σ w o² is 1/3 wherever l lies
+// between two levels, so that the lobe is as long everywhere. Of two levels it is between 0 and 1/4, so their λ is kept
+// small. Beyond either end of the list the last level is read along several directions. log₂(ρ/r), κ, λ, a and w_E are read
+// from a table over (√NoV, log r), fitted once for F0 = 1 and once for 0.04 on standard levels (renderer/lobes/): at grazing
+// angles Schlick's Fc cuts the lobe's steep side away. Between the two they are mixed by φ, the share of the reflected energy
+// that Fc carries,
 //     φ(f0) = s(f0)/s(0.04),   s(f0) = (1 − f0) B / (f0 · Ess + (1 − f0) B).                        (4)
 // The weights sum to 1 and E_F is exact, so constant light is reflected exactly whatever the table holds.
 //
