@@ -15,7 +15,7 @@ Features Renderer::State::begin_reference(const Scene& scene, const GpuEnvironme
     const Features features = reference_features(features_for(scene, environment));
     auto frame = make_frame_block(scene.camera, view, target.size, layout_of(environment),
                                   std::numeric_limits<float>::max());
-    move_picture(frame, 2.0f * slice.jitter_px / glm::vec2(target.size));
+    move_picture(frame, slice.jitter_px, target.size);
     const float exposure = frame.camera_position.w;
     set_switches();
     if (slice.rows.x == 0) gl::begin_reference_surface(target, kind_of(features & kMaps));

@@ -152,8 +152,7 @@ const gl::Program& Renderer::State::background(Background background, bool store
     std::vector<std::string> defines;
     if (blurred) defines.emplace_back("HAS_BLUR");
     if (stored_rays) defines.emplace_back("HAS_STORED");
-    program =
-        compiled(stored_rays ? "display.vert.glsl" : "background.vert.glsl", "background.frag.glsl", defines);
+    program = compiled("display.vert.glsl", "background.frag.glsl", defines);
     return program;
 }
 

@@ -100,7 +100,6 @@ gl::SurfacePrograms Renderer::State::surface_programs(int samples, Features maps
     };
     return {.fragments = sorting(stored.fragments[samples], {"FRAGMENTS"}),
             .sorted = sorting(stored.sort[{samples, maps}], stored_defines(maps)),
-            .rays = sorting(stored.rays[samples], {"RAYS"}),
             .nothing = nothing.name()};
 }
 
@@ -162,14 +161,8 @@ std::shared_ptr<GpuSurfaces> Renderer::State::rasterised(const Scene& scene, con
     set_switches();
     scratch.begin();
     rasterise(scene, frame_of(scene, target.size, {}, 0.0f), maps);
-    scratch.begin_rays();
-    if (!stored.behind) stored.behind = compiled("background.vert.glsl", "surfaces_behind.frag.glsl", {});
-    glDepthMask(GL_FALSE);
-    glUseProgram(stored.behind.name());
-    glBindVertexArray(nothing.name());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
     if (is_counted(scene.crop)) ++work.surfaces_rasterised;
-    count_draw(3, 3);
+    count_draw(2, 2);
     return std::make_shared<GpuSurfaces>(
         scratch.finish(surface_programs(target.samples, maps), old ? std::move(*old) : GpuSurfaces{}));
 }

@@ -31,12 +31,17 @@ void set_camera(blocks::FrameBlock& block, const Camera& camera, glm::ivec2 size
     for (int i = 0; i < 4; ++i) block.view_projection[i] = both[i];
     block.camera_position = vec4(camera_position(camera), 1.0f);
     const glm::mat4 rows = glm::transpose(view);
-    const float half_width = 1.0f / projection[0][0];
-    const float half_height = 1.0f / projection[1][1];
-    const float pixel = 2.0f * half_height / float(size.y);
-    block.ray_center = vec4(-vec3(rows[2]), pixel * pixel);
-    block.ray_right = vec4(vec3(rows[0]) * half_width, 0.0f);
-    block.ray_up = vec4(vec3(rows[1]) * half_height, kBackdropRoughness);
+    const glm::vec2 half_size(1.0f / projection[0][0], 1.0f / projection[1][1]);
+    const glm::vec2 pixel = 2.0f * half_size / glm::vec2(size);
+    const vec3 right(rows[0]), up(rows[1]), back(rows[2]);
+    block.ray_corner = vec4(-back - half_size.x * right - half_size.y * up, pixel.y * pixel.y);
+    block.ray_right = vec4(right * pixel.x, 0.0f);
+    block.ray_up = vec4(up * pixel.y, kBackdropRoughness);
+}
+
+/// The picture's corner is then that place of it.
+void move_rays(blocks::FrameBlock& block, glm::vec2 by_px) {
+    block.ray_corner += vec4(by_px.x * vec3(block.ray_right) + by_px.y * vec3(block.ray_up), 0.0f);
 }
 
 /// Turning the environment by ψ about +Y is looking it up along directions turned back by ψ.
@@ -98,13 +103,13 @@ blocks::FrameBlock make_frame_block(const Camera& camera, const View& view, glm:
     return block;
 }
 
-void move_picture(blocks::FrameBlock& block, glm::vec2 offset) {
+void move_picture(blocks::FrameBlock& block, glm::vec2 offset_px, glm::ivec2 size_px) {
+    const glm::vec2 offset = 2.0f * offset_px / glm::vec2(size_px);
     for (vec4& column : block.view_projection) {
         column.x += offset.x * column.w;
         column.y += offset.y * column.w;
     }
-    const vec3 moved = offset.x * vec3(block.ray_right) + offset.y * vec3(block.ray_up);
-    block.ray_center -= vec4(moved, 0.0f);
+    move_rays(block, -offset_px);
 }
 
 /// With x the place in the whole picture and y in the part, both −1…1: y = scale x + shift.
@@ -116,11 +121,7 @@ void crop_picture(blocks::FrameBlock& block, const Crop& crop, glm::ivec2 size_p
         column.x = scale.x * column.x + shift.x * column.w;
         column.y = scale.y * column.y + shift.y * column.w;
     }
-    const vec3 right = vec3(block.ray_right) / scale.x;
-    const vec3 up = vec3(block.ray_up) / scale.y;
-    block.ray_center -= vec4(shift.x * right + shift.y * up, 0.0f);
-    block.ray_right = vec4(right, block.ray_right.w);
-    block.ray_up = vec4(up, block.ray_up.w);
+    move_rays(block, crop.at_px);
 }
 
 blocks::MaterialBlock make_material_block(const Material& material, Features features, float exposure) {

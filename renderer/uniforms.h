@@ -34,8 +34,8 @@ struct LightLayout {
 blocks::FrameBlock make_frame_block(const Camera& camera, const View& view, glm::ivec2 size_px,
                                     const LightLayout& light, float largest_radiance);
 
-/// Everything is seen offset further to the right and up, in halves of the picture's sides.
-void move_picture(blocks::FrameBlock& block, glm::vec2 offset);
+/// In a picture of size_px everything is seen so many pixels further to the right and up.
+void move_picture(blocks::FrameBlock& block, glm::vec2 offset_px, glm::ivec2 size_px);
 
 /// Of the picture only that part is seen, in a picture of size_px.
 void crop_picture(blocks::FrameBlock& block, const Crop& crop, glm::ivec2 size_px);

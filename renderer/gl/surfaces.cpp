@@ -5,6 +5,7 @@
 #include "renderer/gl/texture.h"
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -14,15 +15,24 @@ namespace patina::gl {
 namespace {
 
 constexpr std::uint32_t kMixedPixel = 0x80000000u;
-constexpr std::size_t kViews = 1;  ///< the layer that has the rays, too
-constexpr int kRoomStep = 32;      ///< rows: pictures that differ little have the same room
+constexpr int kRoomStep = 32;  ///< rows: pictures that differ little have the same room
 
 /// Never a power of two: a software renderer compiles all that reads the texture anew where one side becomes
 /// one.
 int room_for(int rows) { return std::max((rows + kRoomStep - 1) / kRoomStep, 1) * kRoomStep + 1; }
 
 int layer_count(SurfaceMaps maps) {
-    return maps == SurfaceMaps::None ? 3 : maps == SurfaceMaps::Some ? 5 : 6;
+    return maps == SurfaceMaps::None ? 3 : maps == SurfaceMaps::Some ? 4 : 5;
+}
+
+/// Without maps the third layer is one number.
+bool is_number(int layer, int layers) { return layers == 3 && layer == 2; }
+GLenum format_of(int layer, int layers) { return is_number(layer, layers) ? GL_R32F : GL_RGBA32F; }
+
+std::uint64_t bytes_a_fragment(int layers) {
+    std::uint64_t bytes = 0;
+    for (int i = 0; i < layers; ++i) bytes += is_number(i, layers) ? 4 : 16;
+    return bytes;
 }
 
 std::uint64_t texels_in(glm::ivec2 size) { return std::uint64_t(size.x) * std::uint64_t(size.y); }
@@ -84,7 +94,7 @@ void make_room(GpuSurfaces& surfaces, int layers, GpuSurfaces old) {
     surfaces.room = room_for(surfaces.rows);
     for (std::size_t i = 0; i < std::size_t(layers); ++i)
         surfaces.layers[i] =
-            make_texture(GL_RGBA32F, {GpuSurfaces::kWidth, i == kViews ? surfaces.room : surfaces.mesh_room},
+            make_texture(format_of(int(i), layers), {GpuSurfaces::kWidth, surfaces.mesh_room},
                          {GL_RGBA, GL_FLOAT}, nullptr);
 }
 
@@ -103,46 +113,58 @@ int rows_of(std::size_t fragments) {
     return int((fragments + GpuSurfaces::kWidth - 1) / GpuSurfaces::kWidth);
 }
 
-/// fragments: four a pixel, 0 where a sample meets nothing. Numbers of fragments behind count from their own
-/// first, marked, until it is known how many lie before them.
+constexpr std::uint32_t kBehindMark = 0x40000000u;
+
+/// The number of one fragment more. Those behind count from their own first, marked, until it is known how
+/// many lie before them.
+std::uint32_t add(Sorted& to, float id, Sorted::Place place) {
+    auto& list = id > 0.0f ? to.mesh : to.behind;
+    list.push_back(place);
+    return std::uint32_t(list.size() - 1) | (id > 0.0f ? 0u : kBehindMark);
+}
+
+/// A pixel whose samples meet more than one triangle.
+std::array<std::uint32_t, 4> add_mixed(Sorted& to, std::span<const float> ids, Sorted::Place place) {
+    std::array<std::uint32_t, 4> numbers{};
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        place.sample = std::uint16_t(std::ranges::find(ids, ids[i]) - ids.begin());
+        numbers[i] = place.sample < i ? numbers[place.sample] : add(to, ids[i], place);
+    }
+    return numbers;
+}
+
+void number_behind_after_mesh(Sorted& fragments) {
+    fragments.mesh_rows = rows_of(fragments.mesh.size());
+    fragments.rows = std::max(fragments.mesh_rows + rows_of(fragments.behind.size()), 1);
+    const std::uint32_t first_behind = std::uint32_t(fragments.mesh_rows) * GpuSurfaces::kWidth;
+    const auto placed = [&](std::uint32_t number) {
+        return (number & kBehindMark) != 0 ? (number & ~kBehindMark) + first_behind : number;
+    };
+    for (std::uint32_t& number : fragments.pixels)
+        if ((number & kMixedPixel) == 0) number = placed(number);
+    for (auto& numbers : fragments.mixed)
+        for (std::uint32_t& number : numbers) number = placed(number);
+}
+
+/// fragments: four a pixel, 0 where a sample meets nothing; of fewer samples the first fills the rest.
 Sorted sorted(const std::vector<float>& fragments, glm::ivec2 size, int samples) {
-    constexpr std::uint32_t behind_mark = 0x40000000u;
     Sorted result;
     result.pixels.resize(texels_in(size));
     result.mesh.reserve(texels_in(size));
     result.behind.reserve(texels_in(size));
+    const float* ids = fragments.data();
+    std::uint32_t* pixel = result.pixels.data();
     for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x) {
-            const std::size_t pixel = std::size_t(y) * std::size_t(size.x) + std::size_t(x);
-            const float* const ids = &fragments[4 * pixel];
-            std::array<std::uint32_t, 4> numbers{};
-            bool is_one = true;
-            const int different =
-                std::all_of(ids + 1, ids + samples, [&](float id) { return id == ids[0]; }) ? 1 : samples;
-            for (int i = 0; i < different; ++i) {
-                const int same = int(std::find(ids, ids + i, ids[i]) - ids);
-                if (same < i) {
-                    numbers[std::size_t(i)] = numbers[std::size_t(same)];
-                    continue;
-                }
-                auto& list = ids[i] > 0.0f ? result.mesh : result.behind;
-                numbers[std::size_t(i)] = std::uint32_t(list.size()) | (ids[i] > 0.0f ? 0u : behind_mark);
-                list.push_back({std::uint16_t(x), std::uint16_t(y), std::uint16_t(i)});
-                is_one = is_one && i == 0;
+        for (int x = 0; x < size.x; ++x, ids += 4, ++pixel) {
+            const Sorted::Place place{std::uint16_t(x), std::uint16_t(y)};
+            if (ids[0] == ids[1] && ids[0] == ids[2] && ids[0] == ids[3]) {
+                *pixel = add(result, ids[0], place);
+                continue;
             }
-            result.pixels[pixel] = is_one ? numbers[0] : kMixedPixel | std::uint32_t(result.mixed.size());
-            if (!is_one) result.mixed.push_back(numbers);
+            *pixel = kMixedPixel | std::uint32_t(result.mixed.size());
+            result.mixed.push_back(add_mixed(result, {ids, std::size_t(samples)}, place));
         }
-    result.mesh_rows = rows_of(result.mesh.size());
-    result.rows = std::max(result.mesh_rows + rows_of(result.behind.size()), 1);
-    const std::uint32_t first_behind = std::uint32_t(result.mesh_rows) * GpuSurfaces::kWidth;
-    const auto placed = [&](std::uint32_t number) {
-        return (number & behind_mark) != 0 ? (number & ~behind_mark) + first_behind : number;
-    };
-    for (std::uint32_t& number : result.pixels)
-        if ((number & kMixedPixel) == 0) number = placed(number);
-    for (auto& numbers : result.mixed)
-        for (std::uint32_t& number : numbers) number = placed(number);
+    number_behind_after_mesh(result);
     return result;
 }
 
@@ -184,7 +206,7 @@ bool SurfaceScratch::fits(glm::ivec2 size_px, int samples, SurfaceMaps maps) con
 }
 
 std::uint64_t SurfaceScratch::bytes_for(glm::ivec2 size_px, int samples, SurfaceMaps maps) {
-    return texels_in(size_px) * std::uint64_t(samples) * std::uint64_t(16 * layer_count(maps) + 8);
+    return texels_in(size_px) * std::uint64_t(samples) * (bytes_a_fragment(layer_count(maps)) + 8);
 }
 
 void SurfaceScratch::make(glm::ivec2 size_px, int samples, SurfaceMaps maps) {
@@ -197,7 +219,7 @@ void SurfaceScratch::make(glm::ivec2 size_px, int samples, SurfaceMaps maps) {
     fragments_ = make_layer(GL_R32F, size_px, samples);
     attach(0, kind(), fragments_);
     for (int i = 0; i < layer_count(maps); ++i) {
-        layers_[std::size_t(i)] = make_layer(GL_RGBA32F, size_px, samples);
+        layers_[std::size_t(i)] = make_layer(format_of(i, layer_count(maps)), size_px, samples);
         attach(1 + i, kind(), layers_[std::size_t(i)]);
     }
     draw_into(1 + layer_count(maps));
@@ -224,12 +246,6 @@ void SurfaceScratch::begin() const {
     glClearBufferfv(GL_COLOR, 0, nothing);
 }
 
-/// They go into one layer; no triangle lies there.
-void SurfaceScratch::begin_rays() const {
-    constexpr std::array<GLenum, 1 + kViews + 1> places{GL_NONE, GL_NONE, GL_COLOR_ATTACHMENT0 + 1 + kViews};
-    glDrawBuffers(GLsizei(places.size()), places.data());
-}
-
 void SurfaceScratch::bind_layers() const {
     bind_texture(kFragmentPlacesUnit, GL_TEXTURE_2D, fragments_);
     for (std::size_t i = 0; i < layers_.size(); ++i)
@@ -254,7 +270,7 @@ std::vector<float> SurfaceScratch::read_fragments(const SurfacePrograms& program
     return fragments;
 }
 
-/// Copies every fragment to its place: of the mesh all layers, of rays the one that has them.
+/// Copies every fragment of the mesh to its place.
 void SurfaceScratch::draw_sorted(const GpuSurfaces& surfaces, const SurfacePrograms& programs) const {
     const Framebuffer framebuffer = Framebuffer::make();
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
@@ -264,15 +280,8 @@ void SurfaceScratch::draw_sorted(const GpuSurfaces& surfaces, const SurfaceProgr
         bind_texture(kFirstStoredUnit + GLuint(i), kind(), layers_[std::size_t(i)]);
     }
     draw_into(layers);
-    const glm::ivec2 extent{GpuSurfaces::kWidth, surfaces.rows};
-    require_complete(extent);
+    require_complete({GpuSurfaces::kWidth, surfaces.mesh_rows});
     shade_rows(surfaces, StoredRows::Mesh, programs.sorted, programs.nothing);
-    for (int i = 1; i < layers; ++i)
-        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + GLenum(i), GL_TEXTURE_2D, 0, 0);
-    attach(0, GL_TEXTURE_2D, surfaces.layers[kViews]);
-    draw_into(1);
-    require_complete(extent);
-    shade_rows(surfaces, StoredRows::Behind, programs.rays, programs.nothing);
 }
 
 GpuSurfaces SurfaceScratch::finish(const SurfacePrograms& programs, GpuSurfaces old) {
@@ -285,26 +294,28 @@ GpuSurfaces SurfaceScratch::finish(const SurfacePrograms& programs, GpuSurfaces 
                          .mesh_rows = fragments.mesh_rows,
                          .rows = fragments.rows,
                          .layers = {},
+                         .places = make_places(fragments),
                          .fragment_of_pixel = {},
                          .fragments_of_samples = {},
                          .mesh_fragments = fragments.mesh.size(),
                          .bytes = 0};
-    const Texture places = make_places(fragments);
     const int layers = layer_count(maps_);
     make_room(surfaces, layers, std::move(old));
-    bind_texture(kFragmentPlacesUnit, GL_TEXTURE_2D, places);
+    bind_texture(kFragmentPlacesUnit, GL_TEXTURE_2D, surfaces.places);
     draw_sorted(surfaces, programs);
     surfaces.fragment_of_pixel =
         make_texture(GL_R32UI, size_px_, {GL_RED_INTEGER, GL_UNSIGNED_INT}, fragments.pixels.data());
     surfaces.fragments_of_samples = make_mixed(fragments);
     check_memory("the surface of the picture");
-    const std::uint64_t rows = std::uint64_t(surfaces.room) + std::uint64_t(layers - 1) * surfaces.mesh_room;
-    surfaces.bytes = rows * GpuSurfaces::kWidth * 16 + 4 * texels_in(size_px_) +
-                     16 * std::uint64_t(fragments.mixed.size());
+    const std::uint64_t a_column =
+        bytes_a_fragment(layers) * std::uint64_t(surfaces.mesh_room) + 8 * std::uint64_t(surfaces.room);
+    surfaces.bytes =
+        a_column * GpuSurfaces::kWidth + 4 * texels_in(size_px_) + 16 * std::uint64_t(fragments.mixed.size());
     return surfaces;
 }
 
 void bind_surface_layers(const GpuSurfaces& surfaces) {
+    bind_texture(kFragmentPlacesUnit, GL_TEXTURE_2D, surfaces.places);
     for (std::size_t i = 0; i < surfaces.layers.size(); ++i)
         if (surfaces.layers[i]) bind_texture(kFirstStoredUnit + GLuint(i), GL_TEXTURE_2D, surfaces.layers[i]);
 }

@@ -1,6 +1,6 @@
 // What lies under a picture's samples, rasterised once and shaded as often as wanted. Every fragment, a
-// triangle in a pixel, is kept once, however many samples it covers: first those of the mesh, then the rays
-// that pass it, in rows of one texture. What is shaded of them is exactly what is shaded while rasterising.
+// triangle in a pixel, is kept once, however many samples it covers: first those of the mesh, then those
+// behind it, in rows of one texture. What is shaded of them is exactly what is shaded while rasterising.
 #pragma once
 
 #include "renderer/gl/handles.h"
@@ -23,10 +23,12 @@ struct GpuSurfaces {
     static constexpr int kWidth = 1024;  ///< fragments in a row
     glm::ivec2 size_px{1};
     int samples = 1;
-    int mesh_rows = 0;  ///< of fragments of the mesh; the rest are rays
+    int mesh_rows = 0;  ///< of fragments of the mesh; the rest lies behind it
     int rows = 0;
-    int mesh_room = 0, room = 0;  ///< rows that the layers have, of which those of rays but one need none
-    std::array<gl::Texture, 6> layers;  ///< in the order of shaders/stored.glsl; those of maps may lack
+    int mesh_room = 0, room = 0;        ///< rows that the layers have, and that all has
+    std::array<gl::Texture, 5> layers;  ///< of the mesh, in the order of shaders/stored.glsl; those of maps
+                                        ///< may lack
+    gl::Texture places;                 ///< of all, in the picture
     gl::Texture fragment_of_pixel;
     gl::Texture fragments_of_samples;
     std::uint64_t mesh_fragments = 0;
@@ -38,7 +40,6 @@ namespace gl {
 struct SurfacePrograms {
     GLuint fragments = 0;  ///< surfaces_sorted.frag.glsl with FRAGMENTS
     GLuint sorted = 0;     ///< and without
-    GLuint rays = 0;       ///< with RAYS
     GLuint nothing = 0;    ///< vertex array without attributes
 };
 
@@ -50,9 +51,8 @@ public:
     static std::uint64_t bytes_for(glm::ivec2 size_px, int samples, SurfaceMaps maps);
     /// Throws std::runtime_error where the driver has no room.
     void make(glm::ivec2 size_px, int samples, SurfaceMaps maps);
-    /// Empty, bound and ready for the mesh to be drawn into, and then for the rays that pass it.
+    /// Empty, bound and ready for the mesh to be drawn into.
     void begin() const;
-    void begin_rays() const;
     /// What was drawn, as it lies there, for shaders to read. Precondition: one sample.
     void bind_layers() const;
     /// Sorts what was drawn. old: one that nobody needs any more, whose room is used again where it fits.
@@ -69,7 +69,7 @@ private:
     Texture fragments_;  ///< of which triangle
     Texture ids_;        ///< the same, four samples a texel
     Framebuffer ids_framebuffer_;
-    std::array<Texture, 6> layers_;
+    std::array<Texture, 5> layers_;
     Renderbuffer depth_;
     Framebuffer framebuffer_;
 };

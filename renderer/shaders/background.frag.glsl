@@ -1,14 +1,13 @@
 // The environment behind the object, sharp or out of focus.
 #include "blocks.h"
 #include "brdf.glsl"
+#include "camera.glsl"
 #include "light.glsl"
-
 #ifdef HAS_STORED
+#include "places.glsl"
 #include "software.glsl"
-uniform sampler2D stored_views;
-#else
-in vec3 world_ray;
 #endif
+
 out vec4 picture_color;
 
 #ifdef HAS_BLUR
@@ -59,13 +58,15 @@ vec3 background_light(vec3 d, float solid_angle) {
 void main() {
 #ifdef HAS_STORED
     spare_whole_tiles();
-    vec3 world_ray = texelFetch(stored_views, ivec2(gl_FragCoord.xy), 0).xyz;
+    vec2 pixel = stored_pixel();
+#else
+    vec2 pixel = gl_FragCoord.xy;
 #endif
-    vec3 d = environment_direction(normalize(world_ray));
+    vec3 d = environment_direction(normalize(camera_ray(pixel)));
 #ifdef HAS_BLUR
     vec3 color = prefiltered_light(d, log2(ray_up.w)) + blurred_lights(d, square(square(ray_up.w)));
 #else
-    vec3 color = background_light(d, ray_center.w);
+    vec3 color = background_light(d, ray_corner.w);
 #endif
     picture_color = vec4(min(color, vec3(ray_right.w)), 1.0);
 }

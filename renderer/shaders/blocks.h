@@ -25,9 +25,10 @@ using vec4 = glm::vec4;
 PATINA_BLOCK(FrameBlock) {
     vec4 view_projection[4];  // columns
     vec4 camera_position;     // xyz world; w: exposure as a factor
-    vec4 ray_center;          // xyz: world direction through the picture's centre; w: pixel's solid angle
-    vec4 ray_right;           // added once at the picture's right edge; w: largest finite output
-    vec4 ray_up;              // added once at the picture's upper edge; w: roughness of the blurred backdrop
+    vec4 ray_corner;          // xyz: world direction through the picture's lower left corner; w: pixel's solid
+                              // angle
+    vec4 ray_right;           // added once a pixel to the right; w: largest finite output
+    vec4 ray_up;              // added once a pixel upwards; w: roughness of the blurred backdrop
     vec4 env_from_world[3];   // rows of the rotation from world to environment
     vec4 env_scale;           // panorama, levels, irradiance; w: texels per radian of the panorama
     vec4 level_layout;        // level count − 1, layers; roughness and alpha of lobes that need no panorama

@@ -1,10 +1,12 @@
 // The shaded surface: scene-linear, exposed radiance.
 #include "blocks.h"
 #include "brdf.glsl"
+#include "camera.glsl"
 #include "light.glsl"
 #include "lobes.glsl"
 #include "material.glsl"
 #ifdef HAS_STORED
+#include "places.glsl"
 #include "software.glsl"
 #include "stored.glsl"
 #else
@@ -127,7 +129,7 @@ void main() {
 #ifdef HAS_STORED
     spare_whole_tiles();
     Surface s = surface_of(stored_maps());
-    Geometry g = stored_geometry();
+    Geometry g = stored_geometry(stored_pixel());
 #else
     vec2 st = vec2(map_uv.x, 1.0 - map_uv.y);   // maps are stored top row first
     Surface s = surface_of(read_maps(st));

@@ -1,6 +1,7 @@
 // What the passes of the reference share: a point of the surface, how it reflects, and the light's cells.
 #include "blocks.h"
 #include "brdf.glsl"
+#include "camera.glsl"
 #include "light.glsl"
 #include "material.glsl"
 #include "stored.glsl"
@@ -55,7 +56,7 @@ mat3 frame_around(vec3 N) {
 
 // What was rasterised here. frame: from the surface's frame to the environment's.
 Surface stored_surface(out Sampled p, out mat3 frame) {
-    Geometry g = stored_geometry();
+    Geometry g = stored_geometry(gl_FragCoord.xy);
     Surface s = surface_of(stored_maps());
     s.roughness = widened_roughness(s.roughness, s.spread);
     frame = frame_around(environment_direction(g.N));

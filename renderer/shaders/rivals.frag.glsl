@@ -4,6 +4,7 @@
 //   RIVAL_SAMPLES 0:     split sum looked up along the dominant direction between N and R (Lagarde & de Rousiers 2014).
 #include "blocks.h"
 #include "brdf.glsl"
+#include "camera.glsl"
 #include "light.glsl"
 #include "material.glsl"
 #include "surface.glsl"

@@ -1,18 +1,18 @@
 // A surface that was rasterised before (surfaces.frag.glsl): each texel is one fragment.
 
-uniform sampler2D stored_normals;    // N; how it changes over the pixel: across, up,
-uniform sampler2D stored_views;      // V; in the fourth of each
-uniform sampler2D stored_turns;      // and here
+uniform sampler2D stored_normals;    // N; how it changes over the pixel, across: x,
+uniform sampler2D stored_turns;      // y and z, and up: x, y
+uniform sampler2D stored_scalars;    // and z; metallic and ao maps; spread of the normals that a normal map averages
 uniform sampler2D stored_colors;     // albedo map; roughness map
-uniform sampler2D stored_scalars;    // metallic and ao maps; spread of the normals that a normal map averages
 uniform sampler2D stored_emissions;  // emission map
 
-Geometry stored_geometry() {
+// pixel: where in the picture it lies.
+Geometry stored_geometry(vec2 pixel) {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec4 normal = texelFetch(stored_normals, at, 0);
-    vec4 view = texelFetch(stored_views, at, 0);
     vec4 turn = texelFetch(stored_turns, at, 0);
-    return Geometry(normal.xyz, view.xyz, PixelNormals(vec3(normal.w, view.w, turn.x), turn.yzw));
+    vec3 up = vec3(turn.zw, texelFetch(stored_scalars, at, 0).x);
+    return Geometry(normal.xyz, -normalize(camera_ray(pixel)), PixelNormals(vec3(normal.w, turn.xy), up));
 }
 
 // Scalars were stored as their channel holds them; a row of the material has one entry, ±value, or none.
@@ -24,9 +24,9 @@ MapTexels stored_maps() {
     vec4 scalars = texelFetch(stored_scalars, at, 0);
     m.albedo = color.rgb;
     m.roughness = color.a * dot(roughness, vec4(1.0));
-    m.metallic = scalars.x * dot(metallic, vec4(1.0));
-    m.ao = scalars.y * dot(ao, vec4(1.0));
-    m.spread = scalars.z;
+    m.metallic = scalars.y * dot(metallic, vec4(1.0));
+    m.ao = scalars.z * dot(ao, vec4(1.0));
+    m.spread = scalars.w;
 #endif
 #ifdef HAS_EMISSION_MAP
     m.emission = texelFetch(stored_emissions, at, 0).rgb;

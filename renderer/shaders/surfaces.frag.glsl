@@ -1,18 +1,18 @@
 // What the surface is, before any light and before the material's values: to be shaded later and more than once.
 #include "blocks.h"
 #include "brdf.glsl"
+#include "camera.glsl"
 #include "material.glsl"
 #include "surface.glsl"
 
 layout(location = 0) out float stored_fragment;   // of which triangle; 0: nothing
 layout(location = 1) out vec4 stored_normal;
-layout(location = 2) out vec4 stored_view;
-layout(location = 3) out vec4 stored_turn;
+layout(location = 2) out vec4 stored_turn;
+layout(location = 3) out vec4 stored_scalar;
 #ifdef HAS_STORED_MAPS
 layout(location = 4) out vec4 stored_color;
-layout(location = 5) out vec4 stored_scalar;
 #ifdef HAS_EMISSION_MAP
-layout(location = 6) out vec4 stored_emission;
+layout(location = 5) out vec4 stored_emission;
 #endif
 #endif
 
@@ -21,12 +21,12 @@ void main() {
     Geometry g = read_geometry(st);
     stored_fragment = float(gl_PrimitiveID + 1);
     stored_normal = vec4(g.N, g.around.across.x);
-    stored_view = vec4(g.V, g.around.across.y);
-    stored_turn = vec4(g.around.across.z, g.around.up);
+    stored_turn = vec4(g.around.across.yz, g.around.up.xy);
+    stored_scalar = vec4(g.around.up.z, 0.0, 0.0, 0.0);
 #ifdef HAS_STORED_MAPS
     MapTexels m = read_maps(st);
+    stored_scalar.yzw = vec3(m.metallic, m.ao, m.spread);
     stored_color = vec4(m.albedo, m.roughness);
-    stored_scalar = vec4(m.metallic, m.ao, m.spread, 0.0);
 #ifdef HAS_EMISSION_MAP
     stored_emission = vec4(m.emission, 0.0);
 #endif

@@ -1,5 +1,5 @@
 // Fragments laid side by side, each once however many samples it covers. With FRAGMENTS: instead, which triangle lies under
-// each of a pixel's samples. With RAYS: of the layers the one that rays have.
+// each of a pixel's samples.
 #include "software.glsl"
 
 #ifdef SAMPLES
@@ -20,30 +20,21 @@ void main() {
 #endif
 }
 #else
-uniform usampler2D fragment_places;   // x, y and sample
-uniform Samples stored_views;
-#ifdef RAYS
-out vec4 sorted_ray;
-void main() {
-    spare_whole_tiles();
-    uvec3 place = texelFetch(fragment_places, ivec2(gl_FragCoord.xy), 0).rgb;
-    sorted_ray = texelFetch(stored_views, ivec2(place.xy), int(place.z));
-}
-#else
+#include "places.glsl"
+
 uniform Samples stored_normals;
 uniform Samples stored_turns;
+uniform Samples stored_scalars;
 layout(location = 0) out vec4 sorted_normal;
-layout(location = 1) out vec4 sorted_view;
-layout(location = 2) out vec4 sorted_turn;
+layout(location = 1) out vec4 sorted_turn;
+layout(location = 2) out vec4 sorted_scalar;
 #ifdef HAS_STORED_MAPS
 uniform Samples stored_colors;
-uniform Samples stored_scalars;
 layout(location = 3) out vec4 sorted_color;
-layout(location = 4) out vec4 sorted_scalar;
 #endif
 #ifdef HAS_EMISSION_MAP
 uniform Samples stored_emissions;
-layout(location = 5) out vec4 sorted_emission;
+layout(location = 4) out vec4 sorted_emission;
 #endif
 
 void main() {
@@ -52,15 +43,13 @@ void main() {
     ivec2 at = ivec2(place.xy);
     int i = int(place.z);
     sorted_normal = texelFetch(stored_normals, at, i);
-    sorted_view = texelFetch(stored_views, at, i);
     sorted_turn = texelFetch(stored_turns, at, i);
+    sorted_scalar = texelFetch(stored_scalars, at, i);
 #ifdef HAS_STORED_MAPS
     sorted_color = texelFetch(stored_colors, at, i);
-    sorted_scalar = texelFetch(stored_scalars, at, i);
 #endif
 #ifdef HAS_EMISSION_MAP
     sorted_emission = texelFetch(stored_emissions, at, i);
 #endif
 }
-#endif
 #endif
