@@ -79,7 +79,7 @@ std::optional<NeededLight> Reconciler::State::needed_by(std::size_t picture,
         const auto& [keys, value, error] = maps.slot(at);
         if (keys.wanted.empty()) continue;
         if (!keys.ready() && !has_map(at)) return std::nullopt;
-        known[std::size_t(slot)] = has_map(at) ? value->ranges : ChannelRanges{};
+        known[std::size_t(slot)] = has_map(at) ? Renderer::ranges_of(*value->handle) : ChannelRanges{};
     }
     return needed_light(wanted.material, known, wanted.view);
 }
@@ -156,14 +156,6 @@ MapHandle Reconciler::State::handle_for(std::size_t picture, const Material& mat
     return same_file ? value->handle : placeholder;
 }
 
-/// Of the handle above.
-std::optional<ChannelRanges> Reconciler::State::ranges_of(std::size_t picture, int slot) const {
-    const auto& [keys, value, error] = maps.slot(map_slot(picture, slot));
-    const MapHandle& handle = pictures[picture].handles[slot];
-    if (!handle) return std::nullopt;
-    return value && value->handle == handle ? value->ranges : ChannelRanges{};
-}
-
 void Reconciler::State::present(std::size_t index, const Material& wanted, std::uint64_t opened_now) {
     Picture& picture = pictures[index];
     std::array<bool, kMapSlots> ready;
@@ -174,12 +166,10 @@ void Reconciler::State::present(std::size_t index, const Material& wanted, std::
         return;  // another document: all or nothing
     Material next = wanted;
     for (int i = 0; i < kMapSlots; ++i) {
-        if (ready[i]) {
+        if (ready[i])
             picture.handles[i] = handle_for(index, wanted, i);
-            picture.ranges[i] = ranges_of(index, i);
-        } else {
+        else
             copy_slot(picture.material, next, MapSlot(i));
-        }
     }
     picture.material = std::move(next);
     picture.presented = true;
@@ -190,7 +180,7 @@ Scene Reconciler::State::scene(std::size_t index, const Camera& camera, const Vi
     const Picture& picture = pictures[index];
     Scene scene{.maps = picture.handles, .material = picture.material, .camera = camera, .view = view};
     if (options.skip) {
-        const Collapsed simpler = collapsed(picture.material, picture.ranges);
+        const Collapsed simpler = collapsed(picture.material, Renderer::ranges_of(scene));
         scene.material = simpler.material;
         for (int i = 0; i < kMapSlots; ++i)
             if (simpler.slots[i]) scene.maps[i] = nullptr;

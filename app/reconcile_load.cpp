@@ -93,8 +93,8 @@ ReadyMap load_map(const Registry& registry, const MapRequest& request) {
     count_reading(ready.work, maker);
     auto levels = std::make_shared<MapLevels>(maker.take());
     ready.is_whole = levels->levels[0].width == ready.width && levels->levels[0].height == ready.height;
-    ready.ranges = channel_ranges(*levels);
-    if (request.finest_side > 0) keep_one_texel_of_constant(*levels, ready.ranges);
+    levels->ranges = channel_ranges(*levels);
+    if (request.finest_side > 0) keep_one_texel_of_constant(*levels);
     count_upload(ready.work, *levels);
     ready.levels = std::move(levels);
     return ready;

@@ -30,7 +30,6 @@ void copy_slot(const Material& from, Material& to, MapSlot slot);
 
 struct ReadyMap {
     std::shared_ptr<const MapLevels> levels;
-    ChannelRanges ranges;
     Image thumbnail;                                    ///< 3 channels of 8 bits, at most kThumbnailPx a side
     int width = 0, height = 0, channels = 0, bits = 0;  ///< of the file
     std::uint64_t file_bytes = 0;

@@ -93,7 +93,6 @@ Jobs::Id Reconciler::State::start_map(const std::string& key, const MapRequest& 
                                       .channels = map.channels,
                                       .bits = map.bits,
                                       .file_bytes = map.file_bytes};
-                       held.ranges = map.ranges;
                        held.side = map.is_whole ? 0 : side;
                        finish_map(key, std::move(held), bytes);
                    });

@@ -24,8 +24,7 @@ struct HeldMap {
     MapHandle handle;
     MapHandle thumbnail;
     ui::MapStatus status;  ///< of a loaded map; without a texture id
-    ChannelRanges ranges;
-    int side = 0;  ///< texels of the finest level that was asked for; 0: all are there
+    int side = 0;          ///< texels of the finest level that was asked for; 0: all are there
 };
 struct HeldMesh {
     MeshHandle handle;
@@ -67,7 +66,6 @@ struct Reconciler::State {
     struct Picture {
         Material material;
         std::array<MapHandle, kMapSlots> handles;
-        MapRanges ranges;  ///< of handles
         std::uint64_t opened = 0;
         bool presented = false;
     };
@@ -110,7 +108,6 @@ struct Reconciler::State {
     void note(const std::string& id, const std::vector<std::string>& notes) const;
     bool slot_ready(std::size_t picture, const Material& material, int slot) const;
     bool light_ready(std::size_t picture) const;
-    std::optional<ChannelRanges> ranges_of(std::size_t picture, int slot) const;
     MapHandle handle_for(std::size_t picture, const Material& material, int slot) const;
     void present(std::size_t picture, const Material& material, std::uint64_t opened_now);
     Scene scene(std::size_t picture, const Camera& camera, const View& view) const;

@@ -166,8 +166,10 @@ const SceneLoader::Map& SceneLoader::map(const MapSource& source, const std::str
     const std::string name = path_to_utf8(source.file.filename());
     options_.progress("loading " + name, 0.0f);
     MapLevels levels = read_map(source, preset, side);
-    map.ranges = channel_ranges(levels);
-    if (options_.skip) keep_one_texel_of_constant(levels, map.ranges);
+    if (options_.skip) {
+        levels.ranges = channel_ranges(levels);
+        keep_one_texel_of_constant(levels);
+    }
     count_upload(renderer_.work(), levels);
     map.side = side;
     map.handle = renderer_.upload_map(levels);
@@ -183,15 +185,11 @@ Scene SceneLoader::scene(const std::string& preset, const SceneOptions& options)
     scene.mesh = mesh.handle;
     const Sight sight{options.camera, options_.skip ? options.size_px.y : 0};
     const int side = visible_map_side(mesh.uv_stretch, material.uv.scale, sight);
-    MapRanges ranges;
-    for (const MapSource& source : map_sources(material, file)) {
-        const Map& loaded = map(source, preset, side);
-        scene.maps[std::size_t(source.slot)] = loaded.handle;
-        ranges[std::size_t(source.slot)] = loaded.ranges;
-    }
+    for (const MapSource& source : map_sources(material, file))
+        scene.maps[std::size_t(source.slot)] = map(source, preset, side).handle;
     scene.material = material;
     if (!options_.skip) return scene;
-    Collapsed simpler = collapsed(material, ranges);
+    Collapsed simpler = collapsed(material, Renderer::ranges_of(scene));
     scene.material = std::move(simpler.material);
     for (std::size_t slot = 0; slot < scene.maps.size(); ++slot)
         if (simpler.slots[slot]) scene.maps[slot] = nullptr;
@@ -199,11 +197,7 @@ Scene SceneLoader::scene(const std::string& preset, const SceneOptions& options)
 }
 
 NeededLight SceneLoader::needed_light(const Scene& scene) const {
-    MapRanges ranges;
-    for (std::size_t slot = 0; slot < scene.maps.size(); ++slot)
-        for (const auto& [source, map] : maps_)
-            if (scene.maps[slot] && map.handle == scene.maps[slot]) ranges[slot] = map.ranges;
-    return patina::needed_light(scene.material, ranges, scene.view);
+    return patina::needed_light(scene.material, Renderer::ranges_of(scene), scene.view);
 }
 
 NeededLight SceneLoader::needed_light(const std::string& preset, const SceneOptions& options) const {

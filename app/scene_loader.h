@@ -62,7 +62,6 @@ private:
     };
     struct Map {
         MapHandle handle;
-        ChannelRanges ranges;
         int side = 0;  ///< texels of the finest level that was asked for; 0: all
     };
     struct LoadedMesh {

@@ -26,10 +26,9 @@ constexpr std::pair<Feature, const char*> kDefines[] = {
 constexpr Features kAll = (1u << 12) - 1;
 
 /// With all that they imply. Debug views are looked at one at a time and may share what costs nothing but
-/// time; which numbers a roughness map holds is not known here.
+/// time.
 Features completed(Features features) {
     if (has(features, Feature::Debug)) features |= Features(Feature::Sharp) | Features(Feature::Emission);
-    if (has(features, Feature::RoughnessMap)) features |= Features(Feature::Sharp);
     if (has(features, Feature::EmissionMap)) features |= Features(Feature::Emission);
     if (has(features, Feature::Course))
         features &= ~(Features(Feature::Fitted) | Features(Feature::FourLevels));
@@ -39,13 +38,13 @@ Features completed(Features features) {
 
 }  // namespace
 
-Features features_of(const Material& material, const std::bitset<kMapSlots>& bound, const View& view,
+Features features_of(const Material& material, const MapRanges& maps, const View& view,
                      float sharpest_roughness) {
     Features features = 0;
     const auto add = [&](bool wanted, Feature feature) {
         if (wanted) features |= Features(feature);
     };
-    const auto is_bound = [&](MapSlot slot) { return bound[std::size_t(slot)]; };
+    const auto is_bound = [&](MapSlot slot) { return maps[std::size_t(slot)].has_value(); };
     const bool emits = material.emission.value != glm::vec3(0.0f);
     add(is_bound(MapSlot::Albedo) && material.albedo.value != glm::vec3(0.0f), Feature::AlbedoMap);
     add(is_bound(MapSlot::Roughness) && material.roughness.value != 0.0f, Feature::RoughnessMap);
@@ -57,7 +56,8 @@ Features features_of(const Material& material, const std::bitset<kMapSlots>& bou
     // What is drawn where the reference is not there yet.
     const bool fitted = view.shading == Shading::Fitted || view.shading == Shading::Reference;
     const float reach = fitted ? brdf::kCoreReach : 1.0f;
-    add(material.roughness.value < reach * sharpest_roughness, Feature::Sharp);
+    const ValueRange roughness = scalar_range(material.roughness, maps[std::size_t(MapSlot::Roughness)]);
+    add(roughness.low < reach * sharpest_roughness, Feature::Sharp);
     add(view.shading == Shading::Course, Feature::Course);
     add(fitted, Feature::Fitted);
     add(fitted && view.quality == Quality::High, Feature::FourLevels);

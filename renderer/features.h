@@ -3,8 +3,8 @@
 
 #include "materials/material.h"
 #include "renderer/core/view.h"
+#include "renderer/map_range.h"
 
-#include <bitset>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -22,7 +22,7 @@ enum class Feature : Features {
     NormalMap = 1u << 4,
     EmissionMap = 1u << 5,  ///< implies Emission
     Emission = 1u << 6,
-    Sharp = 1u << 7,        ///< roughness may be too low for the levels alone; a roughness map implies it
+    Sharp = 1u << 7,        ///< roughness may be too low for the levels alone
     Course = 1u << 8,       ///< the lecture's formulas
     Debug = 1u << 9,        ///< one ingredient instead of the picture; implies Sharp and Emission
     Fitted = 1u << 10,      ///< fitted lobes; excludes Course
@@ -31,9 +31,9 @@ enum class Feature : Features {
 
 inline bool has(Features features, Feature feature) { return (features & Features(feature)) != 0; }
 
-/// bound: which slots have a map on the GPU; a map whose value is 0 is not read. sharpest_roughness: of the
-/// light's prefiltered levels.
-Features features_of(const Material& material, const std::bitset<kMapSlots>& bound, const View& view,
+/// maps: of the slots that have one on the GPU; a map whose value is 0 is not read. sharpest_roughness: of
+/// the light's prefiltered levels.
+Features features_of(const Material& material, const MapRanges& maps, const View& view,
                      float sharpest_roughness);
 
 /// Of those, what the reference's shader reads: maps and emission.

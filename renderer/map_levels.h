@@ -4,6 +4,7 @@
 
 #include "materials/material.h"
 #include "renderer/core/image.h"
+#include "renderer/core/value_range.h"
 #include "renderer/map_filter.h"
 
 #include <cstddef>
@@ -16,8 +17,9 @@ namespace patina {
 /// samples them.
 struct MapLevels {
     std::vector<Image>
-        levels;         ///< [0] full size, each next one half as large, down to 1×1; 1, 2 or 4 channels
-    bool srgb = false;  ///< U8 that is sampled through an sRGB texture format
+        levels;            ///< [0] full size, each next one half as large, down to 1×1; 1, 2 or 4 channels
+    bool srgb = false;     ///< U8 that is sampled through an sRGB texture format
+    ChannelRanges ranges;  ///< as channel_ranges finds them, where somebody looked
 };
 
 enum class MapKind { Color, Data, Normal };

@@ -101,8 +101,8 @@ ChannelRanges channel_ranges(const MapLevels& map) {
     }
 }
 
-void keep_one_texel_of_constant(MapLevels& map, const ChannelRanges& ranges) {
-    if (is_single(ranges, 4)) map.levels.erase(map.levels.begin(), map.levels.end() - 1);
+void keep_one_texel_of_constant(MapLevels& map) {
+    if (is_single(map.ranges, 4)) map.levels.erase(map.levels.begin(), map.levels.end() - 1);
 }
 
 ValueRange scalar_range(const ScalarSlot& slot, const std::optional<ChannelRanges>& map) {

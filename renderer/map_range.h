@@ -2,6 +2,7 @@
 // Pure.
 #pragma once
 
+#include "renderer/core/value_range.h"
 #include "renderer/map_levels.h"
 
 #include <array>
@@ -10,21 +11,13 @@
 
 namespace patina {
 
-struct ValueRange {
-    float low = 0.0f, high = 1.0f;
-    bool is_single() const { return low == high; }
-    bool operator==(const ValueRange&) const = default;
-};
-
-/// Of what the shader samples in red, green, blue and alpha: any filter stays within.
-using ChannelRanges = std::array<ValueRange, 4>;
-
 /// Over all levels, because those of normal maps hold in alpha what their averages lost. Grey is the same in
 /// red, green and blue.
 ChannelRanges channel_ranges(const MapLevels& map);
 
 /// A map that is one colour all over needs no more than its last level.
-void keep_one_texel_of_constant(MapLevels& map, const ChannelRanges& ranges);
+/// Precondition: its ranges are known.
+void keep_one_texel_of_constant(MapLevels& map);
 
 /// Of each slot; none where no map is bound.
 using MapRanges = std::array<std::optional<ChannelRanges>, kMapSlots>;

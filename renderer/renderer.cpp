@@ -130,10 +130,15 @@ Renderer::~Renderer() = default;
 namespace {
 
 struct MapWriter {
-    explicit MapWriter(const MapLevels& map) : writer(map.levels, map.srgb) {}
+    explicit MapWriter(const MapLevels& map) : writer(map.levels, map.srgb), ranges(map.ranges) {}
     bool step(const MapLevels& map, std::size_t byte_budget) { return writer.step(map.levels, byte_budget); }
-    GpuMap take() { return writer.take(); }
+    GpuMap take() {
+        GpuMap map = writer.take();
+        map.ranges = ranges;
+        return map;
+    }
     gl::TextureWriter writer;
+    ChannelRanges ranges;
 };
 
 /// Writer(input) makes the empty thing, step(input, bytes) fills it, take() hands it over.
@@ -184,6 +189,15 @@ WorkLedger& Renderer::work() { return state_->work; }
 std::uintptr_t Renderer::texture_of(const GpuMap& map) { return map.texture.name(); }
 
 const std::string& Renderer::note_of(const GpuMap& map) { return map.note; }
+
+const ChannelRanges& Renderer::ranges_of(const GpuMap& map) { return map.ranges; }
+
+MapRanges Renderer::ranges_of(const Scene& scene) {
+    MapRanges ranges;
+    for (std::size_t i = 0; i < scene.maps.size(); ++i)
+        if (scene.maps[i]) ranges[i] = scene.maps[i]->ranges;
+    return ranges;
+}
 
 TargetHandle Renderer::make_target(glm::ivec2 size_px, int samples, TargetPrecision precision) {
     return std::make_shared<RenderTarget>(

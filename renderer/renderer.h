@@ -18,6 +18,7 @@
 #include "renderer/gl/mesh_prepare.h"
 #include "renderer/ibl/bake.h"
 #include "renderer/map_levels.h"
+#include "renderer/map_range.h"
 
 #include <glm/vec2.hpp>
 
@@ -63,7 +64,7 @@ enum class TargetPrecision { Half, Full };
 /// the same either way.
 enum class Reuse {
     None,
-    Within,  ///< for this picture alone: software shades the borders of small triangles several times over
+    Within,      ///< for this picture alone, where software gains by it
     IfRepeated,  ///< when the same surface was drawn a moment ago
     Expected,    ///< more pictures of it follow
     Standing     ///< likewise, and then none from a moved camera: where it was rasterised is given back
@@ -163,6 +164,9 @@ public:
     static std::uintptr_t texture_of(const GpuMap& map);
     /// One sentence where the driver had no memory for all of it; else empty.
     static const std::string& note_of(const GpuMap& map);
+    /// What its MapLevels said.
+    static const ChannelRanges& ranges_of(const GpuMap& map);
+    static MapRanges ranges_of(const Scene& scene);
 
     /// What was done for pictures drawn with this renderer; whoever loads or bakes for it adds to it.
     WorkLedger& work();

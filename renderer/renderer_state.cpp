@@ -6,7 +6,6 @@
 #include "renderer/gl/texture.h"
 #include "renderer/lobes/lobe_table.h"
 
-#include <bitset>
 #include <cassert>
 
 namespace patina {
@@ -78,9 +77,7 @@ LightLayout layout_of(const GpuEnvironment& environment) {
 }
 
 Features features_for(const Scene& scene, const GpuEnvironment& environment) {
-    std::bitset<kMapSlots> bound;
-    for (std::size_t i = 0; i < scene.maps.size(); ++i) bound[i] = scene.maps[i] != nullptr;
-    return features_of(scene.material, bound, scene.view, environment.sharpest);
+    return features_of(scene.material, Renderer::ranges_of(scene), scene.view, environment.sharpest);
 }
 
 void set_switches() {

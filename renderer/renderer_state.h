@@ -49,8 +49,8 @@ inline constexpr int kIdleScratch = 32;  ///< pictures after which where they we
 /// By what decides their text.
 struct StoredPrograms {
     std::map<std::pair<Features, std::vector<std::string>>, gl::Program> rasterise;  ///< by maps, and packed
-    std::map<int, gl::Program> fragments;                  ///< by samples
-    std::map<std::pair<int, Features>, gl::Program> sort;  ///< by samples and maps
+    std::map<int, gl::Program> fragments;                                            ///< by samples
+    std::map<std::pair<int, Features>, gl::Program> sort;                            ///< by samples and maps
     std::map<Features, gl::Program> shade;
     std::map<int, gl::Program> resolve;  ///< by samples
 };

@@ -20,6 +20,13 @@ bool has_small_triangles(const Scene& scene, glm::ivec2 whole) {
     return std::int64_t(scene.mesh->index_count / 3) * kSmallTriangle > std::int64_t(whole.x) * whole.y;
 }
 
+/// Whether a picture is rasterised apart for itself alone. Software shades the borders of small triangles
+/// several times over; of sharp lobes, which are put together from the panorama, that takes longer than the
+/// programs and the room for doing otherwise, of other ones it does not.
+bool pays_within(const Scene& scene, Features features, glm::ivec2 whole) {
+    return gl::is_software() && has(features, Feature::Sharp) && has_small_triangles(scene, whole);
+}
+
 /// Its maps as they are, but for the normals, which are kept as shaded.
 Material with_plain_values(const Material& material) {
     Material plain = material;
@@ -116,8 +123,8 @@ std::shared_ptr<const GpuSurfaces> Renderer::State::surfaces_for(const Scene& sc
     if (gl::SurfaceScratch::bytes_for(target.size, target.samples, kind_of(maps)) > kMostScratchBytes)
         return {};
     if (wanted == Reuse::Within) {
-        const bool pays = gl::is_software() && has_small_triangles(scene, whole_px(scene.crop, target.size));
-        return pays ? rasterised(scene, target, maps, {}) : std::shared_ptr<const GpuSurfaces>{};
+        if (!pays_within(scene, features, whole_px(scene.crop, target.size))) return {};
+        return rasterised(scene, target, maps, {});
     }
     const SurfaceKey key = key_of(scene, maps, target.size, target.samples);
     if (auto found = kept_surfaces.find(key)) {
@@ -207,9 +214,8 @@ int Renderer::rows_at_once(const Scene& scene, glm::ivec2 size_px) {
 
 bool Renderer::same_surface(const Scene& a, const Scene& b) {
     const auto key = [](const Scene& scene) {
-        std::bitset<kMapSlots> bound;
-        for (std::size_t i = 0; i < scene.maps.size(); ++i) bound[i] = scene.maps[i] != nullptr;
-        return key_of(scene, features_of(scene.material, bound, scene.view, 1.0f) & kMaps, {}, 1);
+        const Features features = features_of(scene.material, Renderer::ranges_of(scene), scene.view, 1.0f);
+        return key_of(scene, features & kMaps, {}, 1);
     };
     return a.mesh && key(a) == key(b);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/core/image.h"
+#include "renderer/core/value_range.h"
 #include "renderer/gl/handles.h"
 
 #include <cstddef>
@@ -14,7 +15,8 @@ struct GpuMap {
     gl::Texture texture;
     int width = 0;
     int height = 0;
-    std::string note;  ///< one sentence where it is coarser than it was to be; else empty
+    std::string note;      ///< one sentence where it is coarser than it was to be; else empty
+    ChannelRanges ranges;  ///< of all its levels
 };
 
 namespace gl {

@@ -37,7 +37,7 @@ TEST(Shaders, permutations_of_few_and_of_nearly_all_features_compile) {
 TEST(Shaders, features_are_only_what_the_material_uses) {
     Material material;
     material.roughness.value = 0.5f;
-    std::bitset<kMapSlots> bound;
+    MapRanges bound;
     const float light = 0.1f;
     View view;
     EXPECT_EQ(features_of(material, bound, view, light), Features(Feature::Fitted));
@@ -55,7 +55,7 @@ TEST(Shaders, features_are_only_what_the_material_uses) {
     material.roughness.value = 0.05f;
     EXPECT_EQ(features_of(material, bound, view, light), Features(Feature::Sharp));
     EXPECT_EQ(features_of(material, bound, view, 0.0f), 0u);
-    bound.set();
+    bound.fill(ChannelRanges{});
     material.roughness.value = 1.0f;
     material.normal.value = 0.0f;  // flat, whatever the map says
     const Features features = features_of(material, bound, {}, light);
@@ -66,6 +66,18 @@ TEST(Shaders, features_are_only_what_the_material_uses) {
     EXPECT_FALSE(has(features, Feature::NormalMap));
     EXPECT_FALSE(has(features, Feature::EmissionMap));
     EXPECT_FALSE(has(features, Feature::Debug));
+    // Of what the map holds, times the value, the least counts.
+    ValueRange& held = (*bound[std::size_t(MapSlot::Roughness)])[std::size_t(material.roughness.channel)];
+    held = {0.2f, 0.8f};
+    EXPECT_FALSE(has(features_of(material, bound, {}, light), Feature::Sharp));
+    material.roughness.value = 0.6f;
+    EXPECT_TRUE(has(features_of(material, bound, {}, light), Feature::Sharp));
+    material.roughness.value = 1.0f;
+    material.roughness.invert = true;
+    EXPECT_FALSE(has(features_of(material, bound, {}, light), Feature::Sharp));
+    held = {0.2f, 0.95f};
+    EXPECT_TRUE(has(features_of(material, bound, {}, light), Feature::Sharp));
+    material.roughness = {};
     const auto all = all_features();
     for (unsigned bits = 0; bits < 64; ++bits) {
         for (const Named<DebugView>& debug : kDebugViews) {
@@ -74,7 +86,10 @@ TEST(Shaders, features_are_only_what_the_material_uses) {
             view.quality = kQualities[bits / 4 % kQualities.size()].value;
             material.metallic.value = material.normal.value = 1.0f;
             material.emission.value = glm::vec3(bits % 3 == 0 ? 0.0f : 1.0f);
-            const Features some = features_of(material, std::bitset<kMapSlots>(bits), view, light);
+            MapRanges maps;
+            for (std::size_t slot = 0; slot < maps.size(); ++slot)
+                if ((bits >> slot & 1u) != 0) maps[slot] = ChannelRanges{};
+            const Features some = features_of(material, maps, view, light);
             EXPECT_TRUE(std::find(all.begin(), all.end(), some) != all.end()) << some;
         }
     }
