@@ -52,6 +52,43 @@ expect views=0
                         {"-", "--env", "furnace", "--window", "420x300"}));
 }
 
+TEST(Editor, draws_one_frame_for_a_tooltip_that_comes_by_itself) {
+    const Folder home;
+    start_small(home, 500, 360);
+    EXPECT_DRIVEN(drive(home, R"(
+wait idle
+hover material.metallic.bar
+mark
+wait 1 seconds
+expect frames>2                  # two in which layouts settle, and the tooltip's
+expect frames<5
+)"));
+}
+
+TEST(SlowEditor, draws_a_caret_that_changes_until_nobody_has_touched_anything_for_a_while) {
+    const Folder home;
+    start_small(home, 500, 360);
+    EXPECT_DRIVEN(drive(home, R"(
+wait idle
+click material.name
+wait 1 seconds
+mark
+wait 6 seconds
+expect frames>8                  # twice in 1.2 seconds
+expect frames<12
+expect views=0
+wait 4 seconds
+mark
+wait 3 seconds
+expect frames=0
+type x
+wait 1 seconds
+mark
+wait 2 seconds
+expect frames>1
+)"));
+}
+
 TEST(Editor, draws_nothing_while_its_window_is_hidden_and_catches_up_when_it_is_back) {
     const Folder home;
     const fs::path file = home / "gold.json", sign = home / "ready.png";
