@@ -23,8 +23,8 @@ using ChannelRanges = std::array<ValueRange, 4>;
 /// red, green and blue.
 ChannelRanges channel_ranges(const MapLevels& map);
 
-/// A map that is one colour all over needs no more than its last level.
-void keep_one_texel_of_constant(MapLevels& map, const ChannelRanges& ranges);
+/// A map that is one colour all over needs no more than its last level. Whether levels were given back.
+bool keep_one_texel_of_constant(MapLevels& map, const ChannelRanges& ranges);
 
 /// Of each slot; none where no map is bound.
 using MapRanges = std::array<std::optional<ChannelRanges>, kMapSlots>;
