@@ -167,8 +167,8 @@ const SceneLoader::Map& SceneLoader::map(const MapSource& source, const std::str
     options_.progress("loading " + name, 0.0f);
     MapLevels levels = read_map(source, preset, side);
     map.ranges = channel_ranges(levels);
-    if (options_.skip) keep_one_texel_of_constant(levels, map.ranges);
-    count_upload(renderer_.work(), levels);
+    const bool single = options_.skip && keep_one_texel_of_constant(levels, map.ranges);
+    count_upload(renderer_.work(), levels, single);
     map.side = side;
     map.handle = renderer_.upload_map(levels);
     if (const std::string& note = Renderer::note_of(*map.handle); !note.empty())
@@ -199,19 +199,13 @@ Scene SceneLoader::scene(const std::string& preset, const SceneOptions& options)
 }
 
 NeededLight SceneLoader::needed_light(const Scene& scene) const {
+    View view = scene.view;
+    if (is_reference(view)) view.debug = DebugView::Emission;  // it samples the panorama itself
     MapRanges ranges;
     for (std::size_t slot = 0; slot < scene.maps.size(); ++slot)
         for (const auto& [source, map] : maps_)
             if (scene.maps[slot] && map.handle == scene.maps[slot]) ranges[slot] = map.ranges;
-    return patina::needed_light(scene.material, ranges, scene.view);
-}
-
-NeededLight SceneLoader::needed_light(const std::string& preset, const SceneOptions& options) const {
-    const auto [material, file] = material_of(preset, options, [](const std::string&) {});
-    MapRanges ranges;
-    for (const MapSource& source : map_sources(material, file))
-        ranges[std::size_t(source.slot)] = ChannelRanges{};
-    return patina::needed_light(material, ranges, options.view);
+    return patina::needed_light(scene.material, ranges, view);
 }
 
 }  // namespace patina
