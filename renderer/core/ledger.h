@@ -53,7 +53,8 @@ struct WorkLedger {
     std::uint64_t reference_points = 0;     ///< directions a pixel, of the integral itself
     std::uint64_t draw_calls = 0;
     std::uint64_t triangles_drawn = 0;
-    std::uint64_t pixels_drawn = 0;  ///< of the pictures, whatever lies in them
+    std::uint64_t pixels_drawn = 0;      ///< of the pictures, whatever lies in them
+    std::uint64_t fragments_shaded = 0;  ///< runs of fragment shaders; 0 where the driver does not tell
 
     std::vector<SkippedWork> skipped;
 
@@ -107,6 +108,7 @@ inline constexpr std::array kLedgerRows{
     LedgerRow{"draw_calls", "Pictures", "Draw calls", &WorkLedger::draw_calls},
     LedgerRow{"triangles_drawn", "Pictures", "Triangles drawn", &WorkLedger::triangles_drawn},
     LedgerRow{"pixels_drawn", "Pictures", "Pixels of pictures", &WorkLedger::pixels_drawn},
+    LedgerRow{"fragments_shaded", "Pictures", "Fragments shaded", &WorkLedger::fragments_shaded},
 };
 
 /// Notes that something was not done; the same again only raises times.

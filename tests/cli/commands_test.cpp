@@ -449,6 +449,7 @@ TEST(Stats, say_what_was_computed_and_what_was_skipped) {
     EXPECT_GE(cold["work"]["levels_baked"], 1);
     EXPECT_EQ(cold["work"]["views_drawn"], 1);
     EXPECT_EQ(cold["work"]["pixels_drawn"], 32 * 16);
+    EXPECT_GE(cold["work"]["fragments_shaded"], 32 * 16);  // what the tests run on counts them
     EXPECT_EQ(cold["work"]["maps_decoded"], 0);
     EXPECT_EQ(cold["work"]["tangent_frames"], 0);
     EXPECT_FALSE(cold["skipped"].empty());
@@ -600,6 +601,17 @@ TEST(Module, is_needed_by_rare_formats_alone_and_its_absence_is_one_sentence) {
     unsetenv("PATINA_MODULE_DIR");
     EXPECT_EQ(without.exit_status, 0) << without.errors;
 }
+
+#ifdef __linux__
+TEST(Module, is_not_what_the_program_is_linked_to) {
+    const Workspace work;
+    setenv("LD_TRACE_LOADED_OBJECTS", "1", 1);  // the loader lists what it would load, and starts nothing
+    const Outcome outcome = work.run({"--help"});
+    unsetenv("LD_TRACE_LOADED_OBJECTS");
+    EXPECT_NE(outcome.output.find("libc.so"), std::string::npos) << outcome.output << outcome.errors;
+    EXPECT_EQ(outcome.output.find("OpenImageIO"), std::string::npos) << outcome.output;
+}
+#endif
 
 TEST(Edit, without_a_display_is_one_sentence) {
     const Workspace work;
