@@ -105,11 +105,18 @@ bool Loop::calm() const {
 
 bool Loop::update_reconciler() {
     std::vector<WantedPicture> further = wanted_pictures(editor_);
+    const Document& document = editor_.document;
+    if (!document.sheet)
+        for (const Shading mode : modes_shown(editor_.ui.accuracy)) {
+            further.push_back(
+                {document.material, document.mesh, document.environment, document.view, sight()});
+            further.back().view.shading = mode;
+        }
     int height_px = 1;
     if (editor_.sheet.report) height_px = kReportPx;
     for (const DrawnView& view : sheet_views_)
         if (view.target) height_px = std::max(height_px, Renderer::size_px(*view.target).y);
-    for (std::size_t view = 0; view < further.size(); ++view)
+    for (std::size_t view = 0; document.sheet && view < further.size(); ++view)
         further[view].sight = {camera_of_sheet(editor_, view), height_px};
     return editor_.reconciler.update(editor_.document, editor_.opened, sight(), further);
 }

@@ -459,6 +459,46 @@ TEST(Editor, decodes_an_environment_once_and_never_again) {
     visit(false);
 }
 
+TEST(Editor, has_the_light_that_a_mode_beside_the_views_own_looks_up) {
+    const auto levels = [](const std::string& more) {
+        const Folder home;
+        start_small(home, 700, 500);
+        Image room = make_image(64, 32, 3, PixelType::F32);
+        for (int y = 0; y < room.height; ++y)
+            for (int x = 0; x < room.width; ++x) set_texel(room, x, y, x % 3, 0.5f + 0.02f * float(y));
+        save_image(home / "room.exr", room);
+        const fs::path stats = home / "stats.json";
+        Program program(home,
+                        drive_arguments(home, R"(
+wait idle
+click toolbar.shading
+wait 2 frames
+click toolbar.shading.course
+wait idle
+drop )" + (home / "room.exr").string() + R"(
+wait until environment~room.exr
+wait idle
+)" + more,
+                                        {"-", "--env", "furnace", "--stats", stats.string()}),
+                        {{"PATINA_CACHE_DIR", (home / "cache").string()}});
+        EXPECT_DRIVEN(program.wait());
+        return counted(stats, "levels_baked");
+    };
+    const std::uint64_t alone = levels("");
+    EXPECT_GE(levels(R"(
+click status
+wait 3 frames
+click drawer.accuracy
+wait until item accuracy.left
+click accuracy.left
+wait 2 frames
+click accuracy.left.fitted
+wait 3 frames
+wait until pending=no
+)"),
+              alone + 4);
+}
+
 TEST(Drive, names_the_line_of_a_script_that_fails) {
     const Folder home;
     const Outcome failed = drive(home, "wait idle\nexpect roughness=0.9\n");
