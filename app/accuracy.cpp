@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <utility>
+#include <vector>
 
 namespace patina {
 
@@ -46,6 +47,13 @@ MeasuredError measure(const Pictures& pictures) {
 }  // namespace
 
 namespace {
+/// Those that are seen.
+std::vector<ui::Layer> layers_of(const ui::AccuracySettings& settings) {
+    std::vector<ui::Layer> layers{settings.left};
+    if (settings.split) layers.push_back(settings.right);
+    return layers;
+}
+
 bool is_map(const ui::Layer& layer) { return layer.kind != ui::Layer::View && layer.kind != ui::Layer::Mode; }
 }  // namespace
 
@@ -205,22 +213,26 @@ AccuracyMeter::AccuracyMeter(Renderer& renderer, Jobs& jobs)
 
 AccuracyMeter::~AccuracyMeter() = default;
 
+std::vector<Shading> modes_shown(const ui::AccuracySettings& settings) {
+    std::vector<Shading> modes;
+    for (const ui::Layer& layer : layers_of(settings))
+        if (layer.kind == ui::Layer::Mode && layer.mode != Shading::Reference) modes.push_back(layer.mode);
+    return modes;
+}
+
 void AccuracyMeter::update(const Scene& scene, glm::ivec2 size_px, const ui::AccuracySettings& settings,
                            bool held) {
     State& state = *state_;
     const bool final_picture = scene.view.debug == DebugView::Final;
     state.judged = scene.view.shading == Shading::Reference ? View{}.shading : scene.view.shading;
-    const ui::Layer layers[] = {settings.left, settings.right};
     bool measure = settings.meter;
     bool reference = settings.meter || scene.view.shading == Shading::Reference;
-    for (int i = 0; i < (settings.split ? 2 : 1); ++i) {
-        const ui::Layer& layer = layers[i];
+    for (const ui::Layer& layer : layers_of(settings)) {
         measure = measure || is_map(layer);
         reference =
             reference || measure || (layer.kind == ui::Layer::Mode && layer.mode == Shading::Reference);
-        if (layer.kind == ui::Layer::Mode && layer.mode != Shading::Reference)
-            state.draw_other(scene, size_px, layer.mode);
     }
+    for (const Shading mode : modes_shown(settings)) state.draw_other(scene, size_px, mode);
     const bool moves = held && !(state.seen == Signature{with_shading(scene, Shading::Reference), size_px});
     state.wanted = reference && final_picture && !moves;
     if (!state.wanted) return;

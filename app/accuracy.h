@@ -8,8 +8,12 @@
 #include "ui/panel_context.h"
 
 #include <memory>
+#include <vector>
 
 namespace patina {
+
+/// The modes that are drawn beside the view's own: what they look up has to be in the light, too.
+std::vector<Shading> modes_shown(const ui::AccuracySettings& settings);
 
 /// What the last measurement found. Made on a worker.
 struct MeasuredError {

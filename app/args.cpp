@@ -245,6 +245,7 @@ void add_report(CLI::App& root, Args& args) {
         ->type_name("N");
     app->add_flag("--no-hints", args.report.no_hints,
                   "Do not compute what would bring the renders closer to the photos");
+    add_stats(*app, args.report.stats);
 }
 
 void add_bake(CLI::App& root, Args& args) {

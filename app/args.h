@@ -53,6 +53,7 @@ struct ReportArgs {
     int picture_px = 640;
     bool no_hints = false;
     int reference_samples = 0;  ///< a pixel; 0: the renders are not held against the reference
+    std::string stats;          ///< as in RenderArgs
 };
 struct BakeArgs {
     std::string environment;

@@ -83,7 +83,10 @@ ImageMetadata described_with(const std::string& what, const std::string& made_fr
 void render_shots(const RenderArgs& args, const Registry& registry, const fs::path& output) {
     const ImageExporter& exporter = image_exporter(registry, output);
     const std::vector<Shot> shots = missing_shots(args, output);
-    if (shots.empty()) return say(path_to_utf8(output) + " is up to date");
+    if (shots.empty()) {
+        write_stats(args.stats, {});
+        return say(path_to_utf8(output) + " is up to date");
+    }
     Studio studio(registry, args.scene);
     Scene scene = studio.loader.scene(args.presets.front(), args.scene);
     scene.environment =
@@ -137,6 +140,7 @@ int compare_file(const RenderArgs& args, const Registry& registry) {
     require_own_settings(args.scene, args.presets.front());
     const std::string made = args.up_to_date ? made_from(args) : std::string{};
     if (args.up_to_date && is_up_to_date(utf8_to_path(args.output), made)) {
+        write_stats(args.stats, {});
         say(args.output + " is up to date");
         return 0;
     }
@@ -160,6 +164,7 @@ int run_compare(const RenderArgs& args, const Registry& registry) {
     const bool radiance = wants_radiance(args.output);
     const std::string made = args.up_to_date ? made_from(args) : std::string{};
     if (args.up_to_date && is_up_to_date(utf8_to_path(args.output), made)) {
+        write_stats(args.stats, {});
         say(args.output + " is up to date");
         return 0;
     }
@@ -169,11 +174,14 @@ int run_compare(const RenderArgs& args, const Registry& registry) {
     for (std::size_t x = 0; x < args.scene.environments.size(); ++x)
         sheet.set_column_title(int(x), environment_title(registry, args.scene.environments[x]));
     const Reuse reuse = args.scene.environments.size() > 1 ? Reuse::Standing : Reuse::Within;
+    std::vector<Scene> rows;
     NeededLight needed;  // of the whole sheet, so that each light is baked once
-    for (const std::string& preset : args.presets)
-        needed = combined(needed, studio.loader.needed_light(preset, args.scene));
-    for (std::size_t y = 0; y < args.presets.size(); ++y) {
-        Scene scene = studio.loader.scene(args.presets[y], args.scene);
+    for (const std::string& preset : args.presets) {
+        rows.push_back(studio.loader.scene(preset, args.scene));
+        needed = combined(needed, studio.loader.needed_light(rows.back()));
+    }
+    for (std::size_t y = 0; y < rows.size(); ++y) {
+        Scene& scene = rows[y];
         sheet.set_row_title(int(y), scene.material.name);
         for (std::size_t x = 0; x < args.scene.environments.size(); ++x) {
             scene.environment = studio.loader.environment(args.scene.environments[x], needed);

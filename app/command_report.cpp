@@ -2,6 +2,7 @@
 #include "app/commands.h"
 #include "app/comparison_file.h"
 #include "app/comparison_report.h"
+#include "app/stats.h"
 #include "materials/text_io.h"
 
 namespace patina {
@@ -25,6 +26,7 @@ int run_report(const ReportArgs& args, const Registry& registry) {
     while (making.step());
     save_report(output, making.finish());
     studio.progress.clear();
+    write_stats(args.stats, studio.renderer.work());
     say("wrote " + args.output);
     return 0;
 }

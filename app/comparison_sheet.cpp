@@ -57,7 +57,9 @@ public:
           scenes_(studio.renderer, studio.loader, registry, comparison, options.scene),
           plan_(planned(comparison)),
           sheet_(plan_.columns, plan_.rows, options.cell_px,
-                 options.radiance ? PixelType::F32 : PixelType::U8, plan_.photos) {}
+                 options.radiance ? PixelType::F32 : PixelType::U8, plan_.photos) {
+        scenes_.expect(options.cell_px);
+    }
 
     Image draw() {
         draw_grid();
@@ -183,11 +185,37 @@ ComparisonScenes::ComparisonScenes(Renderer& renderer, SceneLoader& loader, cons
       loader_(loader),
       registry_(registry),
       comparison_(comparison),
-      options_(std::move(options)) {}
+      options_(std::move(options)) {
+    options_.mesh = comparison_.mesh;
+    options_.camera = comparison_.camera;
+    options_.size_px = {};
+}
+
+void ComparisonScenes::expect(glm::ivec2 size_px) {
+    options_.size_px = size_px;
+    for (const ViewPlace place : places_of(comparison_)) {
+        const Camera& camera = camera_of(comparison_, lighting_at(comparison_, place));
+        if (nearest_pixel({camera, size_px.y}) < nearest_pixel({options_.camera, size_px.y}))
+            options_.camera = camera;  // that shows most of the maps
+    }
+    for (const ViewPlace place : places_of(comparison_)) {
+        NeededLight& needed = needed_[lighting_at(comparison_, place).environment];
+        needed = combined(needed, loader_.needed_light(unlit_scene(place)));
+    }
+}
 
 Scene ComparisonScenes::scene(ViewPlace place) {
     const auto given = std::ranges::find(given_, place, [](const auto& each) { return each.first; });
     if (given != given_.end()) return given->second;
+    Scene scene = unlit_scene(place);
+    const std::string& environment = lighting_at(comparison_, place).environment;
+    const auto needed = needed_.find(environment);
+    scene.environment =
+        loader_.environment(environment, needed != needed_.end() ? needed->second : all_light());
+    return scene;
+}
+
+Scene ComparisonScenes::unlit_scene(ViewPlace place) {
     const std::string& preset = preset_at(comparison_, place).preset;
     if (preset == kEditedPreset)
         throw std::runtime_error(
@@ -195,15 +223,10 @@ Scene ComparisonScenes::scene(ViewPlace place) {
             "save "
             "it and name its file in the comparison");
     const auto found = presets_.find(preset);
-    SceneOptions options = options_;
-    options.mesh = comparison_.mesh;
-    options.camera = comparison_.camera;
-    options.size_px = {};  // drawn in several sizes: with all detail
     Scene scene = found != presets_.end()
                       ? found->second
-                      : presets_.emplace(preset, loader_.scene(preset, options)).first->second;
+                      : presets_.emplace(preset, loader_.scene(preset, options_)).first->second;
     const Lighting& light = lighting_at(comparison_, place);
-    scene.environment = loader_.environment(light.environment);
     scene.view = view_of(comparison_, light);
     scene.camera = camera_of(comparison_, light);
     return scene;

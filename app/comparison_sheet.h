@@ -29,6 +29,9 @@ public:
     void give_photo(const std::string& file, std::shared_ptr<const LoadedPhoto> photo) {
         photos_[file] = std::move(photo);
     }
+    /// All pictures will be as large and show the views as they are: maps in that detail, and of the light
+    /// what they look up. Else there are all maps and light, for pictures of any size and value.
+    void expect(glm::ivec2 size_px);
     Scene scene(ViewPlace place);
     std::shared_ptr<const LoadedPhoto> photo(const std::string& file);
     /// Drawn there until the next picture of that size.
@@ -39,12 +42,14 @@ public:
 
 private:
     Reuse reuse() const;
+    Scene unlit_scene(ViewPlace place);
 
     Renderer& renderer_;
     SceneLoader& loader_;
     const Registry& registry_;
     const Comparison& comparison_;
     SceneOptions options_;
+    std::map<std::string, NeededLight> needed_;  ///< by environment, where it is known
     std::map<std::string, Scene> presets_;
     std::vector<std::pair<ViewPlace, Scene>> given_;
     std::map<std::string, std::shared_ptr<const LoadedPhoto>> photos_;

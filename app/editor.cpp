@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kCaretSeconds = 0.3;
+constexpr double kCaretRestsSeconds = 10.0;  ///< without an event: then it stands still
 constexpr double kAnimationSeconds = 1.0 / 60.0;
 
 BakeCache bake_cache() { return {.folder = cache_folder() / "ibl"}; }
@@ -79,7 +79,10 @@ void Loop::open_what_was_named() {
 
 void Loop::take_events() {
     const WindowEvents events = window_.take_events();
-    if (events.any) frames_wanted_ = kFramesAfterEvent;
+    if (events.any) {
+        frames_wanted_ = kFramesAfterEvent;
+        event_s_ = window_.time_s();
+    }
     if (events.focus_gained) editor_.next_watch_s = 0.0;  // the artist comes back from a paint program
     if (events.close) ask_quit(editor_);
     for (const WindowEvents::Drop& drop : events.drops) {
@@ -102,11 +105,18 @@ bool Loop::calm() const {
 
 bool Loop::update_reconciler() {
     std::vector<WantedPicture> further = wanted_pictures(editor_);
+    const Document& document = editor_.document;
+    if (!document.sheet)
+        for (const Shading mode : modes_shown(editor_.ui.accuracy)) {
+            further.push_back(
+                {document.material, document.mesh, document.environment, document.view, sight()});
+            further.back().view.shading = mode;
+        }
     int height_px = 1;
     if (editor_.sheet.report) height_px = kReportPx;
     for (const DrawnView& view : sheet_views_)
         if (view.target) height_px = std::max(height_px, Renderer::size_px(*view.target).y);
-    for (std::size_t view = 0; view < further.size(); ++view)
+    for (std::size_t view = 0; document.sheet && view < further.size(); ++view)
         further[view].sight = {camera_of_sheet(editor_, view), height_px};
     return editor_.reconciler.update(editor_.document, editor_.opened, sight(), further);
 }
@@ -132,7 +142,6 @@ bool Loop::needs_frame() const {
            (!editor_.document.sheet && meter_.busy()) || editor_.changes != changes_shown_ ||
            editor_.thumbnails.version() != thumbnails_shown_ || jobs_.running() != jobs_shown_ ||
            editor_.reconciler.pending() != pending_shown_ ||
-           (window_.wants_text() && window_.time_s() - last_frame_s_ >= kCaretSeconds) ||
            (wants_refining() && window_.time_s() - changed_s_ >= kStillSeconds) ||
            (editor_.document.sheet
                 ? sheet_is_stale()
@@ -209,6 +218,7 @@ void Loop::frame() {
     const TargetHandle shown = target_;  // keep their textures alive until the interface is drawn
     const std::vector<DrawnView> shown_sheet = sheet_views_;
     items_.items.clear();
+    window_.let_caret_blink(last_frame_s_ - event_s_ < kCaretRestsSeconds);
     window_.begin_frame();
     ui::draw_workspace(context);
     take_binding(editor_, bound, edited, context.result.turn_all_lights);
@@ -240,7 +250,7 @@ void Loop::after_frame(const ui::PanelContext& context) {
     update_maps(editor_);
     probed_ = context.result.probed;
     animating_ = context.result.wants_redraw;
-    redraw_at_s_ = last_frame_s_ + context.result.redraw_in_s;
+    redraw_at_s_ = last_frame_s_ + std::min(context.result.redraw_in_s, window_.caret_changes_in_s());
     if (editor_.clipboard) window_.set_clipboard(*std::exchange(editor_.clipboard, std::nullopt));
 }
 
@@ -263,7 +273,6 @@ double Loop::sleep_s() const {
     double wait = next_errand_s(editor_, window_.time_s());
     if (drive_) wait = std::min(wait, drive_->patient_for_s(window_.time_s()));
     if (!is_seen_) return std::max(wait, 0.001);
-    if (window_.wants_text()) wait = std::min(wait, kCaretSeconds);
     if (wants_refining()) wait = std::min(wait, kStillSeconds);
     if (editor_.thumbnails.busy()) wait = std::min(wait, kAnimationSeconds);
     wait = std::min(wait, redraw_at_s_ - window_.time_s());

@@ -102,6 +102,7 @@ private:
     std::vector<Jobs::Status> jobs_shown_;
     bool pending_shown_ = false;
     double last_frame_s_ = 0.0;
+    double event_s_ = 0.0;                                          ///< when something last came from outside
     double redraw_at_s_ = std::numeric_limits<double>::infinity();  ///< of the window's time
     std::optional<ProcessMark> first_lit_frame_;
     std::string window_title_;

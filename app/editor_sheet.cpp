@@ -109,6 +109,9 @@ std::vector<WantedPicture> wanted_pictures(Editor& editor) {
         view.debug = editor.document.view.debug;
         pictures.push_back({material, sheet.mesh, lighting_at(sheet, place).environment, view});
     }
+    const auto selected = std::size_t(std::max(editor.ui.sheet_selected, 0));
+    if (selected < pictures.size() && hints_wanted(editor))
+        pictures[selected].roughness_trials = kRoughnessTrials;
     return pictures;
 }
 

@@ -32,7 +32,7 @@ std::string color_hint(const Estimate& e) {
 
 HintSearch::HintSearch(Image photo_in_view, std::optional<Region> region, Scene scene)
     : photo_(std::move(photo_in_view)), region_(region), scene_(std::move(scene)) {
-    for (const float offset : {-0.3f, -0.2f, -0.1f, -0.05f, 0.0f, 0.05f, 0.1f, 0.2f, 0.3f}) {
+    for (const float offset : kRoughnessTrials) {
         Material moved = scene_.material;
         moved.roughness.value += offset;
         if (moved.roughness.value >= 0.0f && moved.roughness.value <= 1.0f)

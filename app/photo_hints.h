@@ -19,6 +19,9 @@ namespace patina {
 /// Scene-linear radiance of a scene, exposure applied, of the photo's size in the view.
 using ShootRadiance = std::function<Image(const Scene&)>;
 
+/// What is added to the roughness, a trial each: the scene's light must serve all of them.
+inline constexpr std::array kRoughnessTrials{-0.3f, -0.2f, -0.1f, -0.05f, 0.0f, 0.05f, 0.1f, 0.2f, 0.3f};
+
 class HintSearch {
 public:
     /// photo_in_view: 4 channels, as photo_in_view() makes it.

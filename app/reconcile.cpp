@@ -81,7 +81,13 @@ std::optional<NeededLight> Reconciler::State::needed_by(std::size_t picture,
         if (!keys.ready() && !has_map(at)) return std::nullopt;
         known[std::size_t(slot)] = has_map(at) ? Renderer::ranges_of(*value->handle) : ChannelRanges{};
     }
-    return needed_light(wanted.material, known, wanted.view);
+    NeededLight needed = needed_light(wanted.material, known, wanted.view);
+    Material moved = wanted.material;
+    for (const float offset : wanted.roughness_trials) {
+        moved.roughness.value = std::clamp(wanted.material.roughness.value + offset, 0.0f, 1.0f);
+        needed = combined(needed, needed_light(moved, known, wanted.view));
+    }
+    return needed;
 }
 
 /// Pictures under one environment want one light, which has what any of them looks up.

@@ -49,6 +49,8 @@ struct WantedPicture {
     std::string mesh, environment;
     View view;    ///< decides what of the light is looked up,
     Sight sight;  ///< and this the detail of maps
+    std::span<const float> roughness_trials =
+        {};  ///< what else may be added to the roughness: light for that
 };
 inline constexpr std::size_t kMaxFurtherPictures = 16;
 

@@ -163,8 +163,10 @@ BakedEnvironment mean_light(const HeldLight& held) {
 LightView drawn_light(const HeldLight& held, const BakedEnvironment& mean) {
     LightView drawn = view_of(held.exact);
     const bool is_first = drawn.levels.empty();
-    // Coarse levels hold all light: beside lights that were taken out it would count twice.
-    if (is_first || drawn.lights.empty()) {
+    if (is_first) drawn.lights = held.coarse.lights;
+    // Beside others, coarse levels must have all light: what was taken out of either would count twice, or
+    // not.
+    if (is_first || (drawn.lights.empty() && held.coarse.lights.empty())) {
         for (const PrefilteredLevel& level : held.coarse.levels) {
             const auto same = [&](const PrefilteredLevel& each) { return each.roughness == level.roughness; };
             if ((is_first || level.roughness >= kCoarseIsFine) &&

@@ -91,11 +91,11 @@ ReadyMap load_map(const Registry& registry, const MapRequest& request) {
     ready.file_bytes = ignored ? 0 : bytes;
     ready.thumbnail = small.take();
     count_reading(ready.work, maker);
+    ready.is_whole = maker.is_whole();
     auto levels = std::make_shared<MapLevels>(maker.take());
-    ready.is_whole = levels->levels[0].width == ready.width && levels->levels[0].height == ready.height;
     levels->ranges = channel_ranges(*levels);
-    if (request.finest_side > 0) keep_one_texel_of_constant(*levels);
-    count_upload(ready.work, *levels);
+    const bool single = request.finest_side > 0 && keep_one_texel_of_constant(*levels);
+    count_upload(ready.work, *levels, single);
     ready.levels = std::move(levels);
     return ready;
 }

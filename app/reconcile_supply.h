@@ -40,11 +40,11 @@ public:
     void forget(const std::string& key) { memory_.forget(key); }
 
     /// start(key) begins a load and gives its id; stop(id) ends one. Returns how many wants were met from
-    /// memory.
+    /// memory, or by a load that another slot waits for already.
     template <class Start, class Stop>
     int update(Start start, Stop stop) {
-        int from_memory = 0;
-        for (Slot& slot : slots_) from_memory += advance(slot, start);
+        int shared = 0;
+        for (Slot& slot : slots_) shared += advance(slot, start);
         for (auto load = loads_.begin(); load != loads_.end();) {
             const bool needed = std::any_of(slots_.begin(), slots_.end(), [&](const Slot& slot) {
                 return slot.keys.loading == load->first;
@@ -52,7 +52,7 @@ public:
             if (!needed) stop(load->second);
             load = needed ? std::next(load) : loads_.erase(load);
         }
-        return from_memory;
+        return shared;
     }
 
     bool is_loading(const std::string& key) const { return loads_.count(key) > 0; }
@@ -113,7 +113,8 @@ private:
                 return 1;
             case NextStep::Load:
                 slot.keys.loading = slot.keys.wanted;
-                if (!is_loading(slot.keys.wanted)) loads_.emplace(slot.keys.wanted, start(slot.keys.wanted));
+                if (is_loading(slot.keys.wanted)) return 1;
+                loads_.emplace(slot.keys.wanted, start(slot.keys.wanted));
                 return 0;
         }
         return 0;

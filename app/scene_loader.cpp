@@ -166,11 +166,9 @@ const SceneLoader::Map& SceneLoader::map(const MapSource& source, const std::str
     const std::string name = path_to_utf8(source.file.filename());
     options_.progress("loading " + name, 0.0f);
     MapLevels levels = read_map(source, preset, side);
-    if (options_.skip) {
-        levels.ranges = channel_ranges(levels);
-        keep_one_texel_of_constant(levels);
-    }
-    count_upload(renderer_.work(), levels);
+    if (options_.skip) levels.ranges = channel_ranges(levels);
+    const bool single = options_.skip && keep_one_texel_of_constant(levels);
+    count_upload(renderer_.work(), levels, single);
     map.side = side;
     map.handle = renderer_.upload_map(levels);
     if (const std::string& note = Renderer::note_of(*map.handle); !note.empty())
@@ -197,15 +195,9 @@ Scene SceneLoader::scene(const std::string& preset, const SceneOptions& options)
 }
 
 NeededLight SceneLoader::needed_light(const Scene& scene) const {
-    return patina::needed_light(scene.material, Renderer::ranges_of(scene), scene.view);
-}
-
-NeededLight SceneLoader::needed_light(const std::string& preset, const SceneOptions& options) const {
-    const auto [material, file] = material_of(preset, options, [](const std::string&) {});
-    MapRanges ranges;
-    for (const MapSource& source : map_sources(material, file))
-        ranges[std::size_t(source.slot)] = ChannelRanges{};
-    return patina::needed_light(material, ranges, options.view);
+    View view = scene.view;
+    if (is_reference(view)) view.debug = DebugView::Emission;  // it samples the panorama itself
+    return patina::needed_light(scene.material, Renderer::ranges_of(scene), view);
 }
 
 }  // namespace patina

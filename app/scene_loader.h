@@ -49,10 +49,8 @@ public:
     MeshHandle mesh(const std::string& id, bool with_tangents);
     /// Material, its maps and the mesh it is put on; the rest of the scene is left to the caller.
     Scene scene(const std::string& preset, const SceneOptions& options);
-    /// What a loaded scene looks up.
+    /// What a loaded scene's picture looks up; nothing stands in for a reference.
     NeededLight needed_light(const Scene& scene) const;
-    /// The same before its maps are loaded: whatever they may hold.
-    NeededLight needed_light(const std::string& preset, const SceneOptions& options) const;
 
 private:
     struct Light {

@@ -66,11 +66,13 @@ void count_reading(WorkLedger& work, const MapMaker& maker, std::uint64_t beside
     work.map_bytes_decoded += std::uint64_t(shape.width) * std::uint64_t(shape.height) *
                               std::uint64_t(shape.channels) * bytes_per_channel(shape.type);
     work.map_bytes_held += maker.bytes() + beside;
+    if (!maker.is_whole()) skip(work, "finer levels of a map", "the picture shows the object no larger");
 }
 
-void count_upload(WorkLedger& work, const MapLevels& map) {
+void count_upload(WorkLedger& work, const MapLevels& map, bool single) {
     ++work.maps_uploaded;
     work.map_bytes_uploaded += bytes_of(map);
+    if (single) skip(work, "all texels of a map but one", "it is one colour all over");
 }
 
 void count_mesh(WorkLedger& work, const Mesh& mesh, bool tangents) {
@@ -78,7 +80,7 @@ void count_mesh(WorkLedger& work, const Mesh& mesh, bool tangents) {
     work.mesh_bytes_uploaded += bytes_of(mesh);
     if (tangents)
         work.tangent_frames += mesh.vertices.size();
-    else
+    else if (!mesh.has_tangents)
         skip(work, "tangent frames", "no map bends the normals");
 }
 

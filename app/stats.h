@@ -23,9 +23,9 @@ void count_light(WorkLedger& work, const LightOrder& order, const ReadyLight& re
 /// A picture that was read for a map, by maker, before it hands the map over. beside: bytes of it that were
 /// in memory, too.
 void count_reading(WorkLedger& work, const MapMaker& maker, std::uint64_t beside = 0);
-/// A map on the GPU.
-void count_upload(WorkLedger& work, const MapLevels& map);
-/// A mesh on the GPU; tangents: they were made for it.
+/// A map on the GPU; single: no more than a texel, for it is one colour.
+void count_upload(WorkLedger& work, const MapLevels& map, bool single = false);
+/// A mesh on the GPU; tangents: they were made for it, which has none of its own.
 void count_mesh(WorkLedger& work, const Mesh& mesh, bool tangents);
 std::uint64_t bytes_of(const MapLevels& map);
 std::uint64_t bytes_of(const Mesh& mesh);

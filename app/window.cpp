@@ -7,6 +7,7 @@
 #include <GLFW/glfw3.h>
 #include <epoxy/gl.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <cstring>
 #include <deque>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -49,10 +51,11 @@ struct Window::State {
     float scale = 1.0f, framebuffer_scale = 1.0f;  ///< what style and fonts were made for
     glm::vec2 mouse{-1.0f};
     std::array<bool, kMouseButtons> mouse_down{};
+    float slept_s = 0.0f;  ///< since the last frame
 
     void install_callbacks();
     void deliver_keys();
-    void override_mouse() const;
+    void override_input();
     void measure_scale(float& interface, float& framebuffer) const;
     static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
 };
@@ -191,11 +194,12 @@ void Window::State::deliver_keys() {
     if (!keys.empty()) events.any = true;  // the rest belongs to the next frame
 }
 
-void Window::State::override_mouse() const {
+/// The script's mouse, and its time: a frame takes as long everywhere, and what nothing happens in is added.
+void Window::State::override_input() {
     ImGuiIO& io = ImGui::GetIO();
     io.MousePos = ImVec2(mouse.x, mouse.y);
     for (int i = 0; i < kMouseButtons; ++i) io.MouseDown[i] = mouse_down[i];
-    io.DeltaTime = kDrivenFrameSeconds;
+    io.DeltaTime = kDrivenFrameSeconds + std::exchange(slept_s, 0.0f);
 }
 
 void Window::State::measure_scale(float& interface, float& framebuffer) const {
@@ -246,10 +250,10 @@ Window::~Window() {
 }
 
 void Window::wait(double timeout_s) {
-    if (timeout_s <= 0.0)
-        glfwPollEvents();
-    else
-        glfwWaitEventsTimeout(timeout_s);
+    if (timeout_s <= 0.0) return glfwPollEvents();
+    const double before_s = glfwGetTime();
+    glfwWaitEventsTimeout(timeout_s);
+    state_->slept_s += float(glfwGetTime() - before_s);
 }
 
 void Window::wake() { glfwPostEmptyEvent(); }
@@ -268,7 +272,7 @@ void Window::begin_frame() {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     state_->deliver_keys();
-    if (state_->driven) state_->override_mouse();
+    if (state_->driven) state_->override_input();
     ImGui::NewFrame();
 }
 
@@ -294,7 +298,18 @@ void Window::end_frame(Image* shown) {
     ++state_->frames;
 }
 
-bool Window::wants_text() const { return ImGui::GetIO().WantTextInput; }
+/// As ImGui 1.86 draws it: seen for 0.8 s, gone until 1.2 s, and again; below 0 somebody has just typed.
+double Window::caret_changes_in_s() const {
+    constexpr float seen = 0.8f, turn = 1.2f, after = 0.01f;
+    const ImGuiContext& imgui = *ImGui::GetCurrentContext();
+    const bool is_typing = imgui.ActiveId != 0 && imgui.InputTextState.ID == imgui.ActiveId;
+    if (!is_typing || !imgui.IO.ConfigInputTextCursorBlink) return std::numeric_limits<double>::infinity();
+    const float at = imgui.InputTextState.CursorAnim;
+    const float phase = at > 0.0f ? std::fmod(at, turn) : at;
+    return double((phase < seen ? seen : turn) - phase + after);
+}
+
+void Window::let_caret_blink(bool blinks) { ImGui::GetIO().ConfigInputTextCursorBlink = blinks; }
 
 bool Window::out_of_sight() const {
     glm::ivec2 pixels;

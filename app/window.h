@@ -53,9 +53,12 @@ public:
     /// Between them the interface is drawn; end_frame shows it.
     void begin_frame();
     void end_frame(Image* shown = nullptr);  ///< shown: gets the picture, 3 channels of 8 bits
-    bool wants_text() const;                 ///< a text field has the keyboard: its caret blinks
-    bool out_of_sight() const;               ///< minimised, hidden or without a pixel
-    std::uint64_t frames() const;            ///< shown so far
+    /// Of the text field that has the keyboard: when its caret next appears or vanishes; infinity where none
+    /// does.
+    double caret_changes_in_s() const;
+    void let_caret_blink(bool blinks);  ///< or stand still, and be seen
+    bool out_of_sight() const;          ///< minimised, hidden or without a pixel
+    std::uint64_t frames() const;       ///< shown so far
 
     double time_s() const;
     float interface_scale() const;    ///< 1 = 96 dpi

@@ -60,13 +60,15 @@ float uv_stretch(const Mesh& mesh) {
     return 0.0f;
 }
 
+float nearest_pixel(const Sight& sight) {
+    const float distance = std::max(glm::length(camera_position(sight.camera)) - 1.0f, kNearest);
+    return 2.0f * std::tan(glm::radians(0.5f * sight.camera.fov_deg)) * distance / float(sight.height_px);
+}
+
 int visible_map_side(float stretch, glm::vec2 map_scale, const Sight& sight) {
     if (sight.height_px <= 0) return 0;
     const float repeats = std::max(std::min(std::abs(map_scale.x), std::abs(map_scale.y)), 1e-3f);
-    const float distance = std::max(glm::length(camera_position(sight.camera)) - 1.0f, kNearest);
-    const float pixel =
-        2.0f * std::tan(glm::radians(0.5f * sight.camera.fov_deg)) * distance / float(sight.height_px);
-    const float texels = stretch / (pixel * repeats);
+    const float texels = stretch / (nearest_pixel(sight) * repeats);
     if (texels >= float(kLargestSide)) return 0;
     return int(std::bit_ceil(unsigned(std::max(std::ceil(texels), float(kSmallestSide)))));
 }

@@ -20,6 +20,8 @@ struct Sight {
     Camera camera;
     int height_px = 0;  ///< of the picture; 0: not known, all detail is wanted
 };
+/// How wide a pixel is on the surface that is nearest, in radii of the mesh. Precondition: height_px > 0.
+float nearest_pixel(const Sight& sight);
 /// Texels per side, a power of two, of the finest level of a map that the picture samples where stretch is
 /// that of its surface (uv_stretch: of nine tenths of it, the rest would like finer ones); 0: all there are.
 /// The surface that is nearest is taken to face the camera. map_scale: how often the map repeats in a unit of

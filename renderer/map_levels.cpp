@@ -191,6 +191,8 @@ std::size_t MapMaker::bytes() const {
     return bytes;
 }
 
+bool MapMaker::is_whole() const { return !map_.levels.front().empty(); }
+
 MapLevels MapMaker::take() {
     std::erase_if(map_.levels, [](const Image& level) { return level.empty(); });
     if (maybe_grey_)

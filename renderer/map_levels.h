@@ -45,6 +45,7 @@ public:
     void row(const std::byte* row);                ///< each of the picture's, from the top
     const Image& shape() const { return whole_; }  ///< of the picture, without bytes
     std::size_t bytes() const;                     ///< in memory
+    bool is_whole() const;                         ///< no level is left out as too fine
     MapLevels take();                              ///< once, after the last row
 
 private:

@@ -101,8 +101,10 @@ ChannelRanges channel_ranges(const MapLevels& map) {
     }
 }
 
-void keep_one_texel_of_constant(MapLevels& map) {
-    if (is_single(map.ranges, 4)) map.levels.erase(map.levels.begin(), map.levels.end() - 1);
+bool keep_one_texel_of_constant(MapLevels& map) {
+    if (map.levels.size() == 1 || !is_single(map.ranges, 4)) return false;
+    map.levels.erase(map.levels.begin(), map.levels.end() - 1);
+    return true;
 }
 
 ValueRange scalar_range(const ScalarSlot& slot, const std::optional<ChannelRanges>& map) {

@@ -15,9 +15,9 @@ namespace patina {
 /// red, green and blue.
 ChannelRanges channel_ranges(const MapLevels& map);
 
-/// A map that is one colour all over needs no more than its last level.
+/// A map that is one colour all over needs no more than its last level. Whether levels were given back.
 /// Precondition: its ranges are known.
-void keep_one_texel_of_constant(MapLevels& map);
+bool keep_one_texel_of_constant(MapLevels& map);
 
 /// Of each slot; none where no map is bound.
 using MapRanges = std::array<std::optional<ChannelRanges>, kMapSlots>;

@@ -19,6 +19,15 @@ namespace {
 
 constexpr std::size_t kUploadAtOnce = std::size_t{1} << 26;
 
+/// For its lifetime.
+struct CountedFragments {
+    explicit CountedFragments(gl::FragmentCounts& all) : counts(all) { counts.begin(); }
+    ~CountedFragments() { counts.end(); }
+    CountedFragments(const CountedFragments&) = delete;
+    CountedFragments& operator=(const CountedFragments&) = delete;
+    gl::FragmentCounts& counts;
+};
+
 /// For the length of a call.
 template <class T>
 std::shared_ptr<const T> borrowed(const T& value) {
@@ -184,7 +193,10 @@ MapHandle Renderer::upload_thumbnail(const Image& image) {
     return std::make_shared<GpuMap>(gl::make_interface_texture(image));
 }
 
-WorkLedger& Renderer::work() { return state_->work; }
+WorkLedger& Renderer::work() {
+    state_->work.fragments_shaded += state_->fragments.take();
+    return state_->work;
+}
 
 std::uintptr_t Renderer::texture_of(const GpuMap& map) { return map.texture.name(); }
 
@@ -206,6 +218,7 @@ TargetHandle Renderer::make_target(glm::ivec2 size_px, int samples, TargetPrecis
 
 void Renderer::draw(const Scene& scene, RenderTarget& target, Reuse reuse) {
     const gl::KeepDrawState keep;
+    const CountedFragments counted(state_->fragments);
     const GpuEnvironment& environment = scene.environment ? *scene.environment : *state_->darkness;
     Scene shown = scene;
     if (!scene.environment) shown.view.background = Background::Plain;
@@ -241,11 +254,13 @@ double Renderer::timed_draw(const Scene& scene, RenderTarget& target) {
 
 void Renderer::draw_reference(const Scene& scene, ReferenceTarget& target, const ReferenceSlice& slice) {
     const gl::KeepDrawState keep;
+    const CountedFragments counted(state_->fragments);
     state_->draw_reference(scene, scene.environment ? *scene.environment : *state_->darkness, target, slice);
 }
 
 void Renderer::prepare_reference(const Scene& scene, ReferenceTarget& target) {
     const gl::KeepDrawState keep;
+    const CountedFragments counted(state_->fragments);
     Scene shown = scene;
     if (!scene.environment) shown.view.background = Background::Plain;
     state_->prepare_reference(shown, scene.environment ? *scene.environment : *state_->darkness, target);

@@ -3,6 +3,7 @@
 
 #include "renderer/features.h"
 #include "renderer/gl/environment.h"
+#include "renderer/gl/fragment_counts.h"
 #include "renderer/gl/program.h"
 #include "renderer/gl/surfaces.h"
 #include "renderer/gl/target.h"
@@ -68,6 +69,7 @@ struct Renderer::State {
     gl::SurfaceScratch scratch;
     int scratch_idle = 0;  ///< pictures since it was used
     bool reuse = true;
+    gl::FragmentCounts fragments;
     gl::VertexArray nothing = gl::VertexArray::make();  ///< for triangles made in the shader
     gl::Buffer frame_rows = gl::Buffer::make();
     gl::Buffer material_rows = gl::Buffer::make();

@@ -56,10 +56,8 @@ bool drag_split_line(const Rect& rect, bool& held, float& at) {
 }
 
 bool blinks_to_second(PanelContext& context) {
-    constexpr double after = 0.01;  // a frame just before the change would be followed by another
     const double phase = std::fmod(ImGui::GetTime(), 1.0);
-    const double left = (phase < 0.5 ? 0.5 : 1.0) - phase;
-    context.result.redraw_in_s = std::min(context.result.redraw_in_s, left + after);
+    redraw_in(context, (phase < 0.5 ? 0.5 : 1.0) - phase);
     return phase >= 0.5;
 }
 

@@ -321,8 +321,9 @@ bool is_drop_target(PanelContext& context, MapSlot slot, const Rect& card) {
         ui.hit_slot = slot;
         ui.hit_time = ImGui::GetTime();
     }
-    const bool flashing = ui.hit_slot == slot && ImGui::GetTime() - ui.hit_time < kFlashSeconds;
-    context.result.wants_redraw |= flashing;
+    const double flashed = ImGui::GetTime() - ui.hit_time;
+    const bool flashing = ui.hit_slot == slot && flashed < kFlashSeconds;
+    if (flashing) redraw_in(context, kFlashSeconds - flashed);
     return flashing || (context.drag_over && inside(*context.drag_over));
 }
 

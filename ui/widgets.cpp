@@ -80,15 +80,18 @@ void record_rect(PanelContext& context, std::string_view name, const Rect& rect)
         context.recorder->items.insert_or_assign(std::string(name), RecordedItem{rect, rect, rect});
 }
 
+void redraw_in(PanelContext& context, double seconds) {
+    constexpr double after = 0.01;  // a frame just before the change would be followed by another
+    context.result.redraw_in_s = std::min(context.result.redraw_in_s, seconds + after);
+}
+
 void explain(PanelContext& context, std::string_view text, TextureId picture) {
     const ImGuiContext& imgui = *ImGui::GetCurrentContext();
     if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     if (imgui.ActiveId != 0) return;
     const bool has_timer = imgui.HoveredId != 0 && imgui.HoveredId == ImGui::GetItemID();
-    if (has_timer && imgui.HoveredIdTimer < kTooltipDelay) {
-        context.result.wants_redraw = true;
-        return;
-    }
+    if (has_timer && imgui.HoveredIdTimer < kTooltipDelay)
+        return redraw_in(context, static_cast<double>(kTooltipDelay - imgui.HoveredIdTimer));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(10), px(7)));
     ImGui::BeginTooltip();
     if (picture) ImGui::Image(std::bit_cast<ImTextureID>(picture), {px(220), px(220)});

@@ -24,6 +24,8 @@ void record_rect(PanelContext& context, std::string_view name, const Rect& rect)
 
 /// Explains the last item after the mouse rested on it for a moment, with a picture where there is one.
 void explain(PanelContext& context, std::string_view text, TextureId picture = 0);
+/// Something changes by itself then: a frame is drawn that shows it, and none before for that.
+void redraw_in(PanelContext& context, double seconds);
 /// record and explain.
 void finish_item(PanelContext& context, std::string_view name, std::string_view tooltip,
                  float missing_width = 0.0f);

@@ -36,8 +36,8 @@ struct WorkLedger {
     std::uint64_t programs_from_disk = 0;
     std::uint64_t maps_decoded = 0;
     std::uint64_t map_bytes_decoded = 0;
-    std::uint64_t map_bytes_held = 0;  ///< the most that each took in memory while it was read
-    std::uint64_t maps_from_memory = 0;
+    std::uint64_t map_bytes_held = 0;    ///< the most that each took in memory while it was read
+    std::uint64_t maps_from_memory = 0;  ///< or read once for several slots; likewise lights and meshes
     std::uint64_t maps_uploaded = 0;
     std::uint64_t map_bytes_uploaded = 0;
     // Mesh.
@@ -53,7 +53,8 @@ struct WorkLedger {
     std::uint64_t reference_points = 0;     ///< directions a pixel, of the integral itself
     std::uint64_t draw_calls = 0;
     std::uint64_t triangles_drawn = 0;
-    std::uint64_t pixels_drawn = 0;  ///< of the pictures, whatever lies in them
+    std::uint64_t pixels_drawn = 0;      ///< of the pictures, whatever lies in them
+    std::uint64_t fragments_shaded = 0;  ///< runs of fragment shaders; 0 where the driver does not tell
 
     std::vector<SkippedWork> skipped;
 
@@ -78,7 +79,7 @@ inline constexpr std::array kLedgerRows{
     LedgerRow{"levels_baked", "Light", "Roughness levels baked", &WorkLedger::levels_baked},
     LedgerRow{"irradiance_bakes", "Light", "Irradiance baked", &WorkLedger::irradiance_bakes},
     LedgerRow{"bakes_from_disk", "Light", "Bakes found on disk", &WorkLedger::bakes_from_disk},
-    LedgerRow{"bakes_from_memory", "Light", "Lights found in memory", &WorkLedger::bakes_from_memory},
+    LedgerRow{"bakes_from_memory", "Light", "Lights shared or in memory", &WorkLedger::bakes_from_memory},
     LedgerRow{"environments_uploaded", "Light", "Lights uploaded", &WorkLedger::environments_uploaded},
     LedgerRow{"environment_bytes_uploaded", "Light", "Light uploaded",
               &WorkLedger::environment_bytes_uploaded, LedgerUnit::Bytes},
@@ -89,12 +90,12 @@ inline constexpr std::array kLedgerRows{
               LedgerUnit::Bytes},
     LedgerRow{"map_bytes_held", "Material", "Texels held at once", &WorkLedger::map_bytes_held,
               LedgerUnit::Bytes},
-    LedgerRow{"maps_from_memory", "Material", "Maps found in memory", &WorkLedger::maps_from_memory},
+    LedgerRow{"maps_from_memory", "Material", "Maps shared or in memory", &WorkLedger::maps_from_memory},
     LedgerRow{"maps_uploaded", "Material", "Maps uploaded", &WorkLedger::maps_uploaded},
     LedgerRow{"map_bytes_uploaded", "Material", "Texels uploaded", &WorkLedger::map_bytes_uploaded,
               LedgerUnit::Bytes},
     LedgerRow{"meshes_loaded", "Mesh", "Meshes loaded", &WorkLedger::meshes_loaded},
-    LedgerRow{"meshes_from_memory", "Mesh", "Meshes found in memory", &WorkLedger::meshes_from_memory},
+    LedgerRow{"meshes_from_memory", "Mesh", "Meshes shared or in memory", &WorkLedger::meshes_from_memory},
     LedgerRow{"tangent_frames", "Mesh", "Tangent frames built", &WorkLedger::tangent_frames},
     LedgerRow{"mesh_bytes_uploaded", "Mesh", "Vertices uploaded", &WorkLedger::mesh_bytes_uploaded,
               LedgerUnit::Bytes},
@@ -107,6 +108,7 @@ inline constexpr std::array kLedgerRows{
     LedgerRow{"draw_calls", "Pictures", "Draw calls", &WorkLedger::draw_calls},
     LedgerRow{"triangles_drawn", "Pictures", "Triangles drawn", &WorkLedger::triangles_drawn},
     LedgerRow{"pixels_drawn", "Pictures", "Pixels of pictures", &WorkLedger::pixels_drawn},
+    LedgerRow{"fragments_shaded", "Pictures", "Fragments shaded", &WorkLedger::fragments_shaded},
 };
 
 /// Notes that something was not done; the same again only raises times.

@@ -24,6 +24,8 @@ constexpr int kSharpBand = 1000;
 constexpr double kTruncation = 7e-4;  ///< relative rms of what a level leaves out
 
 constexpr int kMostFirstRows = 512;  ///< that a first light looks at
+/// A sun in a first light's panorama lies in up to four texels of 2.8°.
+constexpr double kSmearedLight = 0.05;
 
 /// How much of it all is computed.
 struct Plan {
@@ -243,10 +245,17 @@ std::optional<BakedEnvironment> bake_first_light(const Environment& environment,
     for (float& roughness : smooth.roughness) roughness = std::max(roughness, sharpest);
     Progress progress{control, 4.0 + double(settings.roughness.size()) * 3.0};
     const Plan plan = {.band = 32, .largest_face = 32};
-    const RadianceView view = view_of(small);
+    RadianceStatistics statistics = radiance_statistics(view_of(small), control.parallel_for);
+    LightExtraction extraction;
+    extraction.residual = view_of(small);
+    if (settings.extract_lights) {  // of so few degrees a small sun would be rings all over the object
+        extraction = extract_lights(small, statistics, {.largest_rms_radius_rad = kSmearedLight});
+        statistics = radiance_statistics(extraction.residual, control.parallel_for);
+    }
     std::optional<BakedEnvironment> baked =
-        transform_levels(view, radiance_statistics(view, control.parallel_for), smooth, plan, progress);
+        transform_levels(extraction.residual, statistics, smooth, plan, progress);
     if (!baked) return std::nullopt;
+    baked->lights = extraction.lights;
     for (std::size_t i = 0; i < settings.roughness.size(); ++i)
         baked->levels[i].roughness = settings.roughness[i];
     progress.add(progress.total);

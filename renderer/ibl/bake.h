@@ -94,7 +94,8 @@ std::optional<BakedEnvironment> bake_environment(const Environment& environment,
 
 /// The same levels and irradiance in a few hundredths of the time, for a first picture: the environment
 /// reduced to 128 × 64 texels (of a large picture only some rows are read), degrees to 32, faces of 32². Good
-/// where the roughness is above ½, blurred where it is below. No lights are taken out.
+/// where the roughness is above ½, blurred where it is below. Lights are taken out where the settings say so,
+/// each as large as a texel of that.
 std::optional<BakedEnvironment> bake_first_light(const Environment& environment, const BakeSettings& settings,
                                                  const BakeControl& control);
 

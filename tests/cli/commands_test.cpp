@@ -432,36 +432,6 @@ TEST(Cache, a_second_render_gives_the_same_picture_from_the_cache) {
     EXPECT_TRUE(cold == work.read("a.exr"));
 }
 
-TEST(Stats, say_what_was_computed_and_what_was_skipped) {
-    const Workspace work;
-    const auto stats = [&](const std::vector<std::string>& words) {
-        std::vector<std::string> all = words;
-        all.insert(all.end(), {"--stats", "s.json"});
-        const Outcome outcome = work.run(all);
-        EXPECT_EQ(outcome.exit_status, 0) << outcome.errors;
-        return nlohmann::json::parse(work.read("s.json"));
-    };
-    const std::vector<std::string> render{"render", "-", "-o", "a.png", "--size", "32x16", "--env", "studio"};
-    const nlohmann::json cold = stats(render);
-    EXPECT_EQ(cold["work"]["environments_decoded"], 1);
-    EXPECT_GE(cold["work"]["levels_baked"], 1);
-    EXPECT_EQ(cold["work"]["views_drawn"], 1);
-    EXPECT_EQ(cold["work"]["pixels_drawn"], 32 * 16);
-    EXPECT_EQ(cold["work"]["maps_decoded"], 0);
-    EXPECT_EQ(cold["work"]["tangent_frames"], 0);
-    EXPECT_FALSE(cold["skipped"].empty());
-    EXPECT_GT(cold["peak_memory_bytes"], 0);
-    const nlohmann::json warm = stats(render);
-    EXPECT_EQ(warm["work"]["levels_baked"], 0);
-    EXPECT_EQ(warm["work"]["bakes_from_disk"], 1);
-    const nlohmann::json textured = stats({"render", "worn-paint", "-o", "b.png", "--size", "32x16"});
-    EXPECT_GE(textured["work"]["maps_uploaded"], 1);
-    EXPECT_GT(textured["work"]["map_bytes_uploaded"], 0);
-    const nlohmann::json baked =
-        stats({"bake", "studio", "-o", "light", "--size", "16", "--levels", "0.5,1"});
-    EXPECT_EQ(baked["work"]["levels_baked"], 2);
-}
-
 /// A 1×1 24-bit BMP: the program's module for further formats reads it.
 std::string small_bmp() {
     const std::string zeros(4, '\0');
@@ -487,6 +457,17 @@ TEST(Module, is_needed_by_rare_formats_alone_and_its_absence_is_one_sentence) {
     unsetenv("PATINA_MODULE_DIR");
     EXPECT_EQ(without.exit_status, 0) << without.errors;
 }
+
+#ifdef __linux__
+TEST(Module, is_not_what_the_program_is_linked_to) {
+    const Workspace work;
+    setenv("LD_TRACE_LOADED_OBJECTS", "1", 1);  // the loader lists what it would load, and starts nothing
+    const Outcome outcome = work.run({"--help"});
+    unsetenv("LD_TRACE_LOADED_OBJECTS");
+    EXPECT_NE(outcome.output.find("libc.so"), std::string::npos) << outcome.output << outcome.errors;
+    EXPECT_EQ(outcome.output.find("OpenImageIO"), std::string::npos) << outcome.output;
+}
+#endif
 
 TEST(Edit, without_a_display_is_one_sentence) {
     const Workspace work;

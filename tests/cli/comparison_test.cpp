@@ -88,8 +88,10 @@ TEST(ReportCommand, writes_a_page_and_a_pdf) {
          {"Ada", "Alone", "Material: Gold", "Against the photos", "patina report sheet.json -o r.html",
           "patina render gold --mesh sphere --env furnace"})
         EXPECT_NE(html.find(text), std::string::npos) << text;
-    const Outcome document = work.run({"report", "sheet.json", "-o", "r.pdf", "--size", "48", "--no-hints"});
+    const Outcome document =
+        work.run({"report", "sheet.json", "-o", "r.pdf", "--size", "48", "--no-hints", "--stats", "s.json"});
     ASSERT_EQ(document.exit_status, 0) << document.errors;
+    EXPECT_NE(work.read("s.json").find("\"views_drawn\""), std::string::npos);
     EXPECT_TRUE(work.read("r.pdf").starts_with("%PDF-"));
 }
 

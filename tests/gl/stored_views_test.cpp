@@ -163,6 +163,31 @@ TEST_F(StoredSurface, is_rasterised_anew_for_what_lies_in_it) {
     EXPECT_FALSE(rasterises([](Scene& scene) { scene.material.uv.scale.x = 4.0f; }));
 }
 
+TEST(StoredShading, is_done_inside_the_bounds_of_the_mesh_and_counted_where_the_driver_counts) {
+    Scene scene = make_scene(lamp_light(), sphere());
+    scene.view.background = Background::Plain;
+    constexpr int side = 256;
+    const TargetHandle target = renderer().make_target(glm::ivec2(side), 1);
+    const auto shaded = [&](float distance) {
+        scene.camera.distance = distance;
+        renderer().draw(scene, *target, Reuse::Expected);
+        renderer().read_display(*target);
+        const std::uint64_t before = renderer().work().fragments_shaded;
+        scene.material.roughness.value += 0.01f;  // shaded once more
+        renderer().draw(scene, *target, Reuse::Expected);
+        renderer().read_display(*target);
+        return double(renderer().work().fragments_shaded - before);
+    };
+    const double near = shaded(4.5f), far = shaded(30.0f);
+    if (near == 0.0) GTEST_SKIP() << "this driver counts no fragments";
+    // Every pixel once for the display; the sphere takes a half of the picture, and then an 80th.
+    constexpr double pixels = double(side) * side;
+    EXPECT_GT(near, 1.4 * pixels);
+    EXPECT_LT(near, 1.8 * pixels);
+    EXPECT_GT(far, 1.0 * pixels);
+    EXPECT_LT(far, 1.1 * pixels);
+}
+
 TEST(StoredPrograms, are_taken_again_unless_they_are_damaged) {
     renderer();  // its context
     std::map<std::string, std::vector<std::byte>> kept;

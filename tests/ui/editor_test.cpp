@@ -15,66 +15,6 @@ using namespace patina;
 using namespace patina::test;
 namespace fs = std::filesystem;
 
-TEST(Editor, draws_nothing_while_nothing_changes) {
-    const Folder home;
-    EXPECT_DRIVEN(drive(home, R"(
-wait idle
-mark
-wait 60 turns                    # of the event loop, which looks at files now and then
-expect frames=0
-expect views=0
-hover material.metallic.bar      # a hover draws the interface, not the picture
-wait idle
-expect frames>0
-expect views=0
-drag viewport 40 0
-wait idle
-expect views>0
-mark
-wait 40 turns
-expect frames=0
-)"));
-}
-
-TEST(SlowEditor, draws_nothing_once_the_reference_has_converged) {
-    const Folder home;
-    EXPECT_DRIVEN(drive(home, R"(
-wait idle
-click toolbar.shading
-click toolbar.shading.reference
-wait until views>3
-wait idle
-mark
-wait 60 turns
-expect frames=0
-expect views=0
-)",
-                        {"-", "--env", "furnace", "--window", "420x300"}));
-}
-
-TEST(Editor, draws_nothing_while_its_window_is_hidden_and_catches_up_when_it_is_back) {
-    const Folder home;
-    const fs::path file = home / "gold.json", sign = home / "ready.png";
-    write_text(file, R"({"name": "Gold", "roughness": {"value": 0.25}})");
-    Program program(home, drive_arguments(home, R"(
-wait idle
-screenshot )" + sign.string() + R"(
-hide
-mark
-wait until roughness=0.75        # the file changed, and the document follows
-wait 40 turns
-expect frames=0
-expect views=0
-show
-wait until views>0
-expect frames>0
-)",
-                                          {file.string()}));
-    ASSERT_TRUE(wait_for_file(sign)) << program.wait().errors;
-    write_text(file, R"({"name": "Gold", "roughness": {"value": 0.75}, "metallic": {"value": 1}})");
-    EXPECT_DRIVEN(program.wait());
-}
-
 TEST(Editor, gives_unsaved_work_back_after_a_crash_and_to_one_window_only) {
     const Folder home;
     const fs::path sign = home / "ready.png";
@@ -420,6 +360,46 @@ TEST(Editor, decodes_an_environment_once_and_never_again) {
     save_image(home / "room.exr", room);
     visit(true);
     visit(false);
+}
+
+TEST(Editor, has_the_light_that_a_mode_beside_the_views_own_looks_up) {
+    const auto levels = [](const std::string& more) {
+        const Folder home;
+        start_small(home, 700, 500);
+        Image room = make_image(64, 32, 3, PixelType::F32);
+        for (int y = 0; y < room.height; ++y)
+            for (int x = 0; x < room.width; ++x) set_texel(room, x, y, x % 3, 0.5f + 0.02f * float(y));
+        save_image(home / "room.exr", room);
+        const fs::path stats = home / "stats.json";
+        Program program(home,
+                        drive_arguments(home, R"(
+wait idle
+click toolbar.shading
+wait 2 frames
+click toolbar.shading.course
+wait idle
+drop )" + (home / "room.exr").string() + R"(
+wait until environment~room.exr
+wait idle
+)" + more,
+                                        {"-", "--env", "furnace", "--stats", stats.string()}),
+                        {{"PATINA_CACHE_DIR", (home / "cache").string()}});
+        EXPECT_DRIVEN(program.wait());
+        return counted(stats, "levels_baked");
+    };
+    const std::uint64_t alone = levels("");
+    EXPECT_GE(levels(R"(
+click status
+wait 3 frames
+click drawer.accuracy
+wait until item accuracy.left
+click accuracy.left
+wait 2 frames
+click accuracy.left.fitted
+wait 3 frames
+wait until pending=no
+)"),
+              alone + 4);
 }
 
 TEST(Drive, names_the_line_of_a_script_that_fails) {

@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include <array>
+#include <cmath>
 #include <set>
 
 namespace patina::ui {
@@ -190,13 +191,16 @@ TEST(Redraw, nothing_moves_by_itself_in_an_idle_window) {
     EXPECT_FALSE(stage.result.wants_redraw) << "progress comes with the job's own events";
 }
 
-TEST(Redraw, a_tooltip_on_its_way_asks_for_frames_until_it_is_there) {
+TEST(Redraw, a_tooltip_on_its_way_asks_for_the_one_frame_that_shows_it) {
     Stage stage;
     stage.move_to(stage.centre("material.roughness.bar"));
     stage.frames(2);
-    EXPECT_TRUE(stage.result.wants_redraw);
+    EXPECT_FALSE(stage.result.wants_redraw);
+    EXPECT_GT(stage.result.redraw_in_s, 0.3);
+    EXPECT_LT(stage.result.redraw_in_s, 0.5);
     stage.frames(60);
     EXPECT_FALSE(stage.result.wants_redraw);
+    EXPECT_TRUE(std::isinf(stage.result.redraw_in_s));
 }
 
 TEST(Names, sort_as_people_count) {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace patina::ui {
 namespace {
 
@@ -266,9 +268,12 @@ TEST(MaterialPanel, a_file_dropped_on_a_card_names_its_slot) {
     ASSERT_TRUE(dropped);
     EXPECT_EQ(dropped->files, std::vector<std::string>{"/m/rust.png"});
     EXPECT_EQ(dropped->slot, MapSlot::Metallic);
-    EXPECT_TRUE(stage.result.wants_redraw) << "the card flashes";
+    EXPECT_TRUE(stage.result.wants_redraw) << "what the drop does is shown";
+    stage.frame();
+    EXPECT_FALSE(stage.result.wants_redraw) << "the card is lit and does not move";
+    EXPECT_NEAR(stage.result.redraw_in_s, 0.8, 0.05);
     stage.frames(60);
-    EXPECT_FALSE(stage.result.wants_redraw) << "and stops";
+    EXPECT_TRUE(std::isinf(stage.result.redraw_in_s)) << "and is not lit any more";
 }
 
 TEST(MaterialPanel, a_file_dropped_elsewhere_names_no_slot) {

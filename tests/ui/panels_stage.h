@@ -33,6 +33,7 @@ struct Stage {
     EnvironmentInfo environment_info{.title = "Studio", .width = 1024, .height = 512, .max_radiance = 42.0f};
     std::vector<Panel> panels = builtin_panels();
     Viewport viewport;
+    WorkLedger work;
     std::optional<UnsavedQuestion> unsaved;
     std::optional<RecoveryQuestion> recovery;
     std::optional<Drop> drop;
@@ -94,6 +95,7 @@ struct Stage {
                              .scale = scale,
                              .recorder = &recorder};
         context.sheet = sheet ? &*sheet : nullptr;
+        context.work = &work;
         context.sheet_cells = sheet_cells;
         draw_workspace(context);
         ImGui::Render();

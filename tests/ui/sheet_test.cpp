@@ -175,6 +175,30 @@ expect views>1
 )"));
 }
 
+TEST(EditorSheet, what_would_help_is_tried_in_light_that_serves_the_trials) {
+    const Folder home;
+    start_small(home, 780, 500);
+    const auto metal = [](const char* roughness) {
+        return std::string(
+                   R"({"albedo": {"value": [0.9, 0.9, 0.9]}, "metallic": {"value": 1}, "roughness": {"value": )") +
+               roughness + "}}";
+    };
+    write_text(home / "mirror.json", metal("0"));  // which needs no baked light at all
+    write_text(home / "satin.json", metal("0.2"));
+    Program photo(home, {"render", (home / "satin.json").string(), "-o", (home / "shot.png").string(),
+                         "--env", "studio", "--size", "300x300", "--tonemap", "none"});
+    EXPECT_DRIVEN(photo.wait());
+    write_text(home / "sheet.json",
+               R"({"rows": [{"preset": "mirror.json"}], "columns": [{"environment": "studio",
+        "tonemap": "none", "photo": {"file": "shot.png", "region": [[0.3, 0.3], [0.7, 0.7]]}}]})");
+    EXPECT_DRIVEN(drive(home, "wait idle\ndrop \"" + (home / "sheet.json").string() + R"("
+wait until sheet_views=1
+click sheet.view.1
+wait until photo_hint~roughness
+expect photo_hint~"0.19 higher"     # 0.15 in the light of the mirror alone
+)"));
+}
+
 TEST(EditorSheet, a_photo_is_balanced_by_a_card_fitted_by_points_and_saved) {
     const Folder home;
     start_small(home, 780, 360);

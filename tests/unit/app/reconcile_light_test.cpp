@@ -157,6 +157,19 @@ TEST(DemandedLight, is_drawn_with_coarse_levels_only_where_they_are_nearly_as_go
     EXPECT_EQ(drawn.levels.back()->roughness, 1.0f);
     held.exact.lights = {{{0, 1, 0}, {5, 6, 7}, 0.01f}};  // which coarse levels hold too
     EXPECT_EQ(drawn_light(held, mean).levels.size(), 1u);
+    held.exact.lights.clear();
+    held.coarse.lights = {{{0, 1, 0}, {5, 6, 7}, 0.03f}};  // which exact levels hold too
+    EXPECT_EQ(drawn_light(held, mean).levels.size(), 1u);
+}
+
+TEST(DemandedLight, shows_the_lights_of_a_first_light) {
+    Workshop shop;
+    LightOrder order{.id = "sky", .needed = one_roughness(0.2f), .first_light = true};
+    HeldLight held = *shop.get(order)->held;
+    held.coarse.lights = {{{0, 1, 0}, {5, 6, 7}, 0.03f}};
+    const BakedEnvironment mean = mean_light(held);
+    ASSERT_EQ(drawn_light(held, mean).lights.size(), 1u);
+    EXPECT_EQ(drawn_light(held, mean).lights[0].irradiance, glm::vec3(5, 6, 7));
 }
 
 TEST(DemandedLight, reads_a_large_source_again_to_add_to_it) {

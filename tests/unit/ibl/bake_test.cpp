@@ -79,6 +79,25 @@ TEST(FirstLight, has_every_level_and_is_near_where_it_is_rough) {
         ASSERT_NEAR(first->irradiance.texels[k].y / full->irradiance.texels[k].y, 1.0f, 0.01f);
 }
 
+TEST(FirstLight, has_a_small_sun_as_a_light_and_no_rings_around_it) {
+    const Environment environment = sunny_panorama(1024, 512, 3e4, 0.006);
+    BakeSettings settings = {.max_face_size = 32, .face_sizes = {}};
+    settings.extract_lights = true;
+    const auto first = bake_first_light(environment, settings, {});
+    const auto full = bake_environment(environment, settings, {});
+    ASSERT_TRUE(first && full);
+    ASSERT_EQ(full->lights.size(), 1u);
+    ASSERT_EQ(first->lights.size(), 1u);
+    EXPECT_GT(glm::dot(first->lights[0].direction, full->lights[0].direction), std::cos(0.02f));
+    EXPECT_NEAR(first->lights[0].irradiance.y / full->lights[0].irradiance.y, 1.0f, 0.05f);
+    for (std::size_t i = 0; i < full->levels.size(); ++i) {
+        if (full->levels[i].roughness < 0.25f || full->levels[i].cube.size != 32) continue;
+        for (std::size_t k = 0; k < full->levels[i].cube.texels.size(); ++k)
+            ASSERT_NEAR(first->levels[i].cube.texels[k].y / full->levels[i].cube.texels[k].y, 1.0f, 0.1f)
+                << full->levels[i].roughness;
+    }
+}
+
 TEST(Bake, meets_without_a_step_where_methods_change) {
     const Environment environment = sunny_panorama(512, 256, 1e3, 0.02);
     BakeSettings settings;
