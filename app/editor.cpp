@@ -233,6 +233,7 @@ void Loop::frame() {
 }
 
 void Loop::after_frame(const ui::PanelContext& context) {
+    want_thumbnails(context.result);
     carry_out(editor_, context.requests);
     settle(editor_, context.result.item_active || context.result.viewport_active);
     update_reconciler();

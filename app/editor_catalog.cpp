@@ -74,8 +74,8 @@ void read_presets(Editor& editor) {
 
 void fill_catalog(Editor& editor) {
     ui::Catalog& catalog = editor.catalog;
-    catalog = {.recent = editor.settings.recent};
-    for (const PresetEntry& preset : editor.presets)
+    catalog = {.presets_are_read = editor.presets.has_value(), .recent = editor.settings.recent};
+    for (const PresetEntry& preset : editor.presets.value_or(std::vector<PresetEntry>{}))
         catalog.presets.push_back({.id = path_to_utf8(preset.file),
                                    .title = preset.title,
                                    .description = preset.description,

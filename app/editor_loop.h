@@ -54,6 +54,7 @@ private:
     void fill_probe(ui::PanelContext& context);
     void fill_status();
     void fill_thumbnails();
+    void want_thumbnails(const ui::WorkspaceResult& seen);
     void after_frame(const ui::PanelContext& context);
     void drive();
     double sleep_s() const;

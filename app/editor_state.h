@@ -68,7 +68,7 @@ struct Editor {
     std::optional<ui::ImportSheet> import_sheet;
     ui::Catalog catalog;
     ui::Status status;
-    std::vector<PresetEntry> presets;
+    std::optional<std::vector<PresetEntry>> presets;  ///< none before they are read
     std::uint64_t changes =
         0;  ///< grows with everything that the interface shows and that came from no input
 

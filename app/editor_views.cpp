@@ -167,23 +167,29 @@ void Loop::fill_probe(ui::PanelContext& context) {
     }
 }
 
-/// Of what is seen: none is made for a page that is not open.
 void Loop::fill_thumbnails() {
-    Thumbnails& thumbnails = editor_.thumbnails;
-    const ui::UiState& ui = editor_.ui;
-    const std::string page = !ui.show_library ? "" : ui.left_tab.empty() ? "presets" : ui.left_tab;
-    const std::string light = bind_view(editor_).environment;  // the Light page shows it
-    const auto fill = [&](std::vector<ui::CatalogItem>& items, Thumbnails::Kind kind, const char* of_page) {
-        for (ui::CatalogItem& item : items)
-            if (page == of_page || (kind == Thumbnails::Kind::Environment && item.id == light))
-                item.thumbnail = thumbnails.texture(kind, item.id);
+    const auto fill = [&](auto& items, Thumbnails::Kind kind, auto id) {
+        for (auto& item : items) item.thumbnail = editor_.thumbnails.texture(kind, item.*id);
     };
-    fill(editor_.catalog.presets, Thumbnails::Kind::Preset, "presets");
-    fill(editor_.catalog.environments, Thumbnails::Kind::Environment, "environments");
-    fill(editor_.catalog.meshes, Thumbnails::Kind::Mesh, "meshes");
+    fill(editor_.catalog.presets, Thumbnails::Kind::Preset, &ui::CatalogItem::id);
+    fill(editor_.catalog.environments, Thumbnails::Kind::Environment, &ui::CatalogItem::id);
+    fill(editor_.catalog.meshes, Thumbnails::Kind::Mesh, &ui::CatalogItem::id);
     if (editor_.import_sheet)
-        for (ui::ImportRow& row : editor_.import_sheet->rows)
-            row.thumbnail = thumbnails.texture(Thumbnails::Kind::Picture, row.file);
+        fill(editor_.import_sheet->rows, Thumbnails::Kind::Picture, &ui::ImportRow::file);
+}
+
+/// Of what was seen in the frame; what is not scrolled into sight is never made.
+void Loop::want_thumbnails(const ui::WorkspaceResult& seen) {
+    Thumbnails& thumbnails = editor_.thumbnails;
+    const Thumbnails::Kind kind = seen.shelf == "library.environments" ? Thumbnails::Kind::Environment
+                                  : seen.shelf == "library.meshes"     ? Thumbnails::Kind::Mesh
+                                                                       : Thumbnails::Kind::Preset;
+    for (const std::string& id : seen.cards_seen) thumbnails.want(kind, id);
+    // The Light page shows its own.
+    thumbnails.want(Thumbnails::Kind::Environment, bind_view(editor_).environment);
+    if (editor_.import_sheet)
+        for (const ui::ImportRow& row : editor_.import_sheet->rows)
+            thumbnails.want(Thumbnails::Kind::Picture, row.file);
 }
 
 /// Before the first frame the view is taken to be as high as the window.

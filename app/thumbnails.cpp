@@ -273,13 +273,16 @@ Thumbnails::Thumbnails(Renderer& renderer, const Registry& registry, Jobs& jobs,
 
 Thumbnails::~Thumbnails() = default;
 
-std::uintptr_t Thumbnails::texture(Kind kind, const std::string& id) {
-    State::Entry& entry = state_->entries[{kind, id}];
-    if (!entry.asked) {
-        entry.asked = true;
-        state_->queue.emplace_back(kind, id);
-    }
-    return entry.picture ? Renderer::texture_of(*entry.picture) : 0;
+std::uintptr_t Thumbnails::texture(Kind kind, const std::string& id) const {
+    const auto found = state_->entries.find({kind, id});
+    const bool is_there = found != state_->entries.end() && found->second.picture;
+    return is_there ? Renderer::texture_of(*found->second.picture) : 0;
+}
+
+void Thumbnails::want(Kind kind, const std::string& id) {
+    bool& asked = state_->entries[{kind, id}].asked;
+    if (!asked) state_->queue.emplace_back(kind, id);
+    asked = true;
 }
 
 void Thumbnails::forget(Kind kind, const std::string& id) {

@@ -29,8 +29,10 @@ public:
     Thumbnails(const Thumbnails&) = delete;
     Thumbnails& operator=(const Thumbnails&) = delete;
 
-    /// The texture's name, or 0 while there is none; asking for it is what gets it made.
-    std::uintptr_t texture(Kind kind, const std::string& id);
+    /// The texture's name, or 0 while there is none.
+    std::uintptr_t texture(Kind kind, const std::string& id) const;
+    /// It is to be made, unless it was already.
+    void want(Kind kind, const std::string& id);
     /// The file changed: make it again (the old one is shown meanwhile).
     void forget(Kind kind, const std::string& id);
     /// Takes the next step if nothing else is to be done. True if it drew something now.

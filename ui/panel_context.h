@@ -24,6 +24,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace patina::ui {
@@ -52,6 +53,7 @@ struct CatalogItem {
     TextureId thumbnail = 0;  ///< 0: not there yet, a placeholder is drawn
 };
 struct Catalog {
+    bool presets_are_read = false;  ///< else there may be more
     std::vector<CatalogItem> presets;
     std::vector<CatalogItem> environments;  ///< thumbnails 2:1
     std::vector<CatalogItem> meshes;
@@ -374,6 +376,8 @@ struct WorkspaceResult {
     bool turn_all_lights = false;  ///< a turn of the light in this frame is meant for all views
     bool wants_redraw = false;     ///< something moves by itself: draw another frame soon
     double redraw_in_s = std::numeric_limits<double>::infinity();  ///< something changes by itself then
+    std::string_view shelf;               ///< of the library, that is open: "library.presets", …
+    std::vector<std::string> cards_seen;  ///< ids of its items that are not scrolled out of sight
 };
 
 struct PanelContext {

@@ -71,6 +71,7 @@ struct Footer {
 };
 
 const CatalogItem* draw_shelf(PanelContext& context, const Shelf& shelf, const Footer& footer) {
+    context.result.shelf = shelf.name;
     search_field(context, std::string(shelf.name) + ".search", shelf.search, shelf.hint,
                  context.ui.focus_search);
     context.ui.focus_search = false;
@@ -93,7 +94,9 @@ void draw_presets_panel(PanelContext& context) {
                       .selected = context.status.file,
                       .hint = "Search presets",
                       .placeholder = icon::kMaterial,
-                      .nothing = "No presets were found. Saved presets appear here."};
+                      .nothing = context.catalog.presets_are_read
+                                     ? "No presets were found. Saved presets appear here."
+                                     : ""};
     const Footer footer{"library.presets.open", "Open preset…", "Open a preset file from disk.",
                         BrowserPurpose::OpenPreset};
     if (const CatalogItem* item = draw_shelf(context, shelf, footer))

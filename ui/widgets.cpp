@@ -403,6 +403,7 @@ bool card(PanelContext& context, std::string_view name, const CatalogItem& item,
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const bool pressed = ImGui::InvisibleButton("##card", {style.width, picture + text_height + 2.0f * pad});
     ImGui::PopID();
+    if (ImGui::IsItemVisible()) context.result.cards_seen.push_back(item.id);
     const bool hovered = ImGui::IsItemHovered();
     ImDrawList* draw = ImGui::GetWindowDrawList();
     const ImVec2 max = ImGui::GetItemRectMax();

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
+
 namespace {
 
 using namespace patina::test;
@@ -43,6 +45,27 @@ expect frames=0
 expect views=0
 )",
                         {"-", "--env", "furnace", "--window", "420x300"}));
+}
+
+int files_in(const fs::path& folder) {
+    return int(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+TEST(Editor, makes_the_small_pictures_that_are_seen_and_others_when_scrolled_to) {
+    const Folder home;
+    const auto made = [&](const std::string& script) {
+        Program program(home, drive_arguments(home, script, {"--window", "900x420"}),
+                        {{"PATINA_CACHE_DIR", (home / "cache").string()}});
+        const Outcome outcome = program.wait();
+        EXPECT_EQ(outcome.status, 0) << outcome.errors;
+        return files_in(home / "cache" / "thumbnails");
+    };
+    const int seen = made("wait idle\nwait 1 seconds\nwait idle\n");
+    EXPECT_GE(seen, 2);
+    EXPECT_LT(seen, files_in(shipped_preset("gold").parent_path()) / 2);
+    EXPECT_GT(made("wait idle\nclick library.presets.search\ntype rubber\nwait idle\nwait 1 seconds\n"
+                   "wait idle\n"),
+              seen);
 }
 
 TEST(Editor, draws_one_frame_for_a_tooltip_that_comes_by_itself) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 namespace patina::ui {
 
 TEST(Library, a_click_on_a_preset_opens_it) {
@@ -46,6 +49,37 @@ TEST(Library, each_tab_remembers_its_own_search) {
     stage.frames(2);
     EXPECT_TRUE(stage.has("library.meshes.Quad"));
     EXPECT_EQ(stage.ui.search_meshes, "");
+}
+
+TEST(Library, tells_which_cards_are_seen) {
+    Stage stage(1280.0f, 420.0f);
+    for (int i = 0; i < 60; ++i)
+        stage.catalog.presets.push_back({.id = "p" + std::to_string(i), .title = "P"});
+    stage.frames(2);
+    const auto sees = [&](const std::string& id) {
+        return std::ranges::find(stage.result.cards_seen, id) != stage.result.cards_seen.end();
+    };
+    EXPECT_EQ(stage.result.shelf, "library.presets");
+    EXPECT_TRUE(sees(stage.catalog.presets.front().id));
+    EXPECT_FALSE(sees("p59"));
+    stage.ui.left_tab = "meshes";
+    stage.frames(2);
+    EXPECT_EQ(stage.result.shelf, "library.meshes");
+    EXPECT_TRUE(sees("shaderball"));
+    stage.ui.show_library = false;
+    stage.frames(2);
+    EXPECT_TRUE(stage.result.cards_seen.empty());
+}
+
+TEST(Library, says_that_there_is_no_preset_only_once_that_is_known) {
+    Stage stage;
+    stage.catalog.presets.clear();
+    const auto drawn = [&](bool are_read) {
+        stage.catalog.presets_are_read = are_read;
+        stage.frames(2);
+        return ImGui::GetDrawData()->TotalVtxCount;
+    };
+    EXPECT_LT(drawn(false), drawn(true));
 }
 
 TEST(Library, its_buttons_browse_for_files) {

@@ -164,7 +164,9 @@ TEST(LobeSweep, without_a_lean_is_as_long_wherever_it_lies_between_levels) {
                 square += double(each.weight) * (each.kappa - 0.7) * (each.kappa - 0.7);
             }
             EXPECT_NEAR(mean, level, 1e-5);
-            if (four) EXPECT_NEAR(square, 1.0 / 3.0, 1e-5);
+            if (four) {
+                EXPECT_NEAR(square, 1.0 / 3.0, 1e-5);
+            }
         }
 }
 
