@@ -223,6 +223,7 @@ void Renderer::draw(const Scene& scene, RenderTarget& target, Reuse reuse) {
     Scene shown = scene;
     if (!scene.environment) shown.view.background = Background::Plain;
     target.plain = scene.view.plain_color;
+    if (reuse == Reuse::Within) target.stored.surfaces.reset();  // nobody comes back to them: no room for two
     auto surfaces = state_->surfaces_for(shown, target, features_for(shown, environment), reuse);
     if (surfaces)
         state_->shade_stored(shown, environment, target, surfaces);
