@@ -4,6 +4,7 @@
 #include "app/console.h"
 #include "app/driver_cache.h"
 #include "app/editor.h"
+#include "app/memory.h"
 
 #include <cstdio>
 #include <exception>
@@ -46,6 +47,7 @@ int main(int argc, char** argv) {
     }
     try {
         patina::keep_driver_off_a_full_disk();
+        if (parsed.args->command != patina::Command::Edit) patina::share_one_heap();
         return run(*parsed.args);
     } catch (const std::exception& error) {
         patina::say(error.what());

@@ -85,7 +85,7 @@ void Renderer::State::draw_counted_mesh(const Scene& scene) {
 void Renderer::State::draw_radiance(const Scene& scene, const GpuEnvironment& environment,
                                     RenderTarget& target, std::optional<int> rival_samples) {
     target.stored.surfaces.reset();
-    glBindFramebuffer(GL_FRAMEBUFFER, target.radiance_framebuffer.name());
+    gl::bind_radiance(target);
     glViewport(0, 0, target.size.x, target.size.y);
     set_switches();
     const GLfloat empty[] = {0.0f, 0.0f, 0.0f, 0.0f};
@@ -223,6 +223,7 @@ void Renderer::draw(const Scene& scene, RenderTarget& target, Reuse reuse) {
     Scene shown = scene;
     if (!scene.environment) shown.view.background = Background::Plain;
     target.plain = scene.view.plain_color;
+    if (reuse == Reuse::Within) target.stored.surfaces.reset();  // nobody comes back to them: no room for two
     auto surfaces = state_->surfaces_for(shown, target, features_for(shown, environment), reuse);
     if (surfaces)
         state_->shade_stored(shown, environment, target, surfaces);

@@ -232,10 +232,10 @@ void end_reference_slice() {
 }
 
 void write_reference_mean(const ReferenceTarget& target, const GatheredPoints& points, float weight,
-                          const RenderTarget& to) {
+                          RenderTarget& to) {
     const KeepDrawState keep;
     const KeepTextureBindings keep_textures;
-    glBindFramebuffer(GL_FRAMEBUFFER, to.radiance_framebuffer.name());
+    bind_radiance(to);
     for (const GLenum off : {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST}) glDisable(off);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glViewport(0, 0, target.size.x, target.size.y);

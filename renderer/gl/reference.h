@@ -81,7 +81,7 @@ struct GatheredPoints {
 /// The mean so far into an ordinary target's radiance (one sample a pixel, the same size); black where there
 /// are no points yet. weight: of one of them.
 void write_reference_mean(const ReferenceTarget& target, const GatheredPoints& points, float weight,
-                          const RenderTarget& to);
+                          RenderTarget& to);
 
 /// One layer after the other, each bottom row first.
 std::vector<float> read_replicates(const ReferenceTarget& target);

@@ -13,6 +13,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace patina::gl {
@@ -130,16 +131,34 @@ RenderTarget make_render_target(glm::ivec2 size, int samples, bool full_float) {
     target.size = glm::clamp(size, glm::ivec2(1), glm::ivec2(limit));
     target.samples = offered_samples(samples);
     target.full_float = full_float;
-    bool is_whole = make_radiance(target) && make_display(target);
-    if (target.samples > 1 &&
-        (ran_out_of_memory() || !is_whole)) {  // better with jagged edges than not at all
-        target.samples = 1;
-        is_whole = make_radiance(target) && make_display(target);
-    }
-    glBindRenderbuffer(GL_RENDERBUFFER, 0);
+    const bool is_whole = make_display(target);
     check_memory("the picture");
     if (!is_whole) refuse(target);
     return target;
+}
+
+void bind_radiance(RenderTarget& target) {
+    if (!target.radiance) {
+        const KeepTextureBindings keep_textures;
+        RenderTarget made;
+        made.size = target.size;
+        made.samples = target.samples;
+        made.full_float = target.full_float;
+        bool is_whole = make_radiance(made);
+        if (made.samples > 1 &&
+            (ran_out_of_memory() || !is_whole)) {  // better with jagged edges than not at all
+            made.samples = 1;
+            is_whole = make_radiance(made);
+        }
+        glBindRenderbuffer(GL_RENDERBUFFER, 0);
+        check_memory("the picture");
+        if (!is_whole) refuse(made);
+        target.samples = made.samples;
+        target.radiance = std::move(made.radiance);
+        target.depth = std::move(made.depth);
+        target.radiance_framebuffer = std::move(made.radiance_framebuffer);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, target.radiance_framebuffer.name());
 }
 
 float largest_radiance(const RenderTarget& target) {

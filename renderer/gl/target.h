@@ -27,7 +27,9 @@ struct RenderTarget {
     glm::ivec2 size{1};
     int samples = 1;
     bool full_float = false;  ///< 32-bit instead of 16-bit radiance
-    gl::Texture radiance;     ///< GL_TEXTURE_2D_MULTISAMPLE where samples > 1, else GL_TEXTURE_2D
+    /// GL_TEXTURE_2D_MULTISAMPLE where samples > 1, else GL_TEXTURE_2D; this and what belongs to it are made
+    /// when first drawn into.
+    gl::Texture radiance;
     gl::Renderbuffer depth;
     gl::Framebuffer radiance_framebuffer;
     gl::Texture display;
@@ -42,6 +44,9 @@ namespace gl {
 
 /// samples and size are clamped to what the driver offers.
 RenderTarget make_render_target(glm::ivec2 size, int samples, bool full_float);
+/// Binds the radiance to be drawn into. Made first where it is missing, with one sample where there is no
+/// room for more. Throws std::runtime_error where there is none for that either.
+void bind_radiance(RenderTarget& target);
 /// The largest number a target's radiance can hold.
 float largest_radiance(const RenderTarget& target);
 

@@ -1,4 +1,5 @@
 // Pictures drawn part by part, and for themselves alone from what lies under their samples.
+#include "renderer/gl/target.h"
 #include "renderer/gl/texture.h"
 #include "tests/gl/scene.h"
 
@@ -6,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 namespace patina {
 namespace {
@@ -110,6 +113,47 @@ TEST(Crop, counts_as_a_picture_once) {
         drawn(scene, {96, 32}, Reuse::Within);
     }
     EXPECT_EQ(renderer().work().views_drawn, before.views_drawn + 1);
+}
+
+/// Counts the textures that are made while it lives, and those made beside what it watches.
+class TextureWatch {
+public:
+    explicit TextureWatch(std::weak_ptr<const GpuSurfaces> watched) {
+        watched_ = std::move(watched);
+        made_ = made_beside_ = 0;
+        texture_ = std::exchange(epoxy_glTexImage2D, tex_image);
+    }
+    ~TextureWatch() { epoxy_glTexImage2D = texture_; }
+    TextureWatch(const TextureWatch&) = delete;
+    TextureWatch& operator=(const TextureWatch&) = delete;
+    static int made() { return made_; }
+    static int made_beside() { return made_beside_; }
+
+private:
+    static void tex_image(GLenum target, GLint level, GLint internal, GLsizei width, GLsizei height,
+                          GLint border, GLenum format, GLenum type, const void* pixels) {
+        ++made_;
+        if (!watched_.expired()) ++made_beside_;
+        texture_(target, level, internal, width, height, border, format, type, pixels);
+    }
+    static inline std::weak_ptr<const GpuSurfaces> watched_;
+    static inline int made_ = 0, made_beside_ = 0;
+    static inline PFNGLTEXIMAGE2DPROC texture_ = nullptr;
+};
+
+TEST(Crop, lets_the_fragments_of_one_part_go_before_it_makes_those_of_the_next) {
+    if (!gl::is_software()) GTEST_SKIP() << "other drivers draw such a part at once";
+    Scene scene = bumpy_scene();
+    scene.material.roughness.value = 0.05f;
+    const TargetHandle target = renderer().make_target({96, 32});
+    scene.crop = {kSize, {0, 0}};
+    renderer().draw(scene, *target, Reuse::Within);
+    ASSERT_TRUE(target->stored.surfaces);
+    scene.crop.at_px.y = 32;
+    const TextureWatch watch(target->stored.surfaces);
+    renderer().draw(scene, *target, Reuse::Within);
+    EXPECT_GT(TextureWatch::made(), 0);
+    EXPECT_EQ(TextureWatch::made_beside(), 0);
 }
 
 TEST(Crop, is_a_whole_number_of_quads_and_all_of_a_picture_of_large_triangles) {

@@ -124,12 +124,14 @@ TEST(Memory, what_has_no_place_at_all_is_refused_in_one_sentence) {
     mesh.vertices.resize(3);
     mesh.vertices[1].position.x = mesh.vertices[2].position.y = 1.0f;
     mesh.indices = {0, 1, 2};
+    const TargetHandle undrawn = renderer().make_target(glm::ivec2(64), 1);
     const std::pair<const char*, std::function<void()>> uploads[] = {
         {"a map", [] { renderer().upload_map(red_map(256)); }},
         {"a map", [] { renderer().upload_map(red_map(1)); }},
         {"the mesh", [&] { renderer().upload_mesh(mesh); }},
         {"the light", [&] { renderer().upload_environment(panorama, baked); }},
         {"the picture", [] { renderer().make_target(glm::ivec2(64), 1); }},
+        {"the picture", [&] { renderer().draw(make_scene(nullptr, quad()), *undrawn); }},
     };
     for (const auto& [what, upload] : uploads) {
         std::string said;
@@ -145,15 +147,29 @@ TEST(Memory, what_has_no_place_at_all_is_refused_in_one_sentence) {
 
 TEST(Memory, a_picture_that_has_no_place_with_smooth_edges_is_drawn_without) {
     Scene scene = make_scene(constant_light(1.0f), sphere());
-    TargetHandle target;
+    const TargetHandle target = renderer().make_target(glm::ivec2(64), 4);
     {
         const SmallCard card(nullptr, nullptr, nullptr, all);
-        target = renderer().make_target(glm::ivec2(64), 4);
+        renderer().draw(scene, *target);
     }
-    renderer().draw(scene, *target);
     EXPECT_EQ(target->samples, 1);
     EXPECT_GT(center(renderer().read_radiance(*target)).y, 0.1f);
     EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
+TEST(Memory, radiance_has_a_place_only_where_it_is_drawn_into) {
+    const Scene scene = make_scene(constant_light(1.0f), sphere());
+    const TargetHandle target = renderer().make_target(glm::ivec2(64), 4);
+    renderer().draw(scene, *target, Reuse::Expected);
+    ASSERT_TRUE(target->stored.surfaces);
+    EXPECT_FALSE(target->radiance);
+    const glm::vec3 stored = center(renderer().read_radiance(*target));
+    renderer().draw(scene, *target);
+    EXPECT_TRUE(target->radiance);
+    const glm::vec3 at_once = center(renderer().read_radiance(*target));
+    EXPECT_NEAR(stored.y, at_once.y, 1e-3f * at_once.y);
+    renderer().draw(scene, *target, Reuse::Expected);
+    EXPECT_EQ(center(renderer().read_radiance(*target)), stored);
 }
 
 }  // namespace

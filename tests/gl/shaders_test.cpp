@@ -126,7 +126,7 @@ std::vector<glm::vec4> evaluate(const std::string& includes, const std::string& 
                          std::to_string(size) + ".0;\n color = " + expression + ";\n}\n"};
     const gl::Program program = gl::make_program(gl::embedded_shader("display.vert.glsl"), fragment);
     const gl::VertexArray nothing = gl::VertexArray::make();
-    glBindFramebuffer(GL_FRAMEBUFFER, target.radiance_framebuffer.name());
+    gl::bind_radiance(target);
     glViewport(0, 0, size, size);
     glUseProgram(program.name());
     glBindVertexArray(nothing.name());
