@@ -169,13 +169,18 @@ void Loop::fill_status() {
     window_title_ = title;
 }
 
-void Loop::frame() {
+/// What this frame shows: for that no other is drawn.
+void Loop::remember_shown() {
     frames_wanted_ = std::max(0, frames_wanted_ - 1);
     changes_shown_ = editor_.changes;
     thumbnails_shown_ = editor_.thumbnails.version();
     jobs_shown_ = jobs_.running();
     pending_shown_ = editor_.reconciler.pending();
     last_frame_s_ = window_.time_s();
+}
+
+void Loop::frame() {
+    remember_shown();
     window_.follow_scale();
     fill_status();
     fill_thumbnails();

@@ -52,6 +52,7 @@ private:
     void measure_view(glm::ivec2 size_px, bool held);
     void fill_viewport(ui::Viewport& viewport) const;
     void fill_probe(ui::PanelContext& context);
+    void remember_shown();
     void fill_status();
     void fill_thumbnails();
     void want_thumbnails(const ui::WorkspaceResult& seen);

@@ -54,7 +54,8 @@ FoundMaterial material_of(const std::string& preset, const SceneOptions& options
     if (preset != "-") {
         found.file = find_preset(preset);
         LoadedMaterial loaded = load_material(found.file);
-        for (const std::string& each : loaded.notes) note(preset + ": " + each);
+        const std::string about = preset + ": ";
+        for (const std::string& each : loaded.notes) note(about + each);
         found.material = std::move(loaded.material);
     }
     for (const auto& [key, value] : options.overrides) set_parameter(found.material, key, value);
@@ -94,7 +95,8 @@ EnvironmentHandle SceneLoader::environment(const std::string& id, const NeededLi
     const std::optional<ReadyLight> ready =
         get_light(registry_, order, drawing_bake_settings(), options_.cache, control);
     if (!ready) throw std::runtime_error(id + ": the bake was stopped");
-    for (const std::string& note : ready->notes) options_.note(id + ": " + note);
+    const std::string about = id + ": ";
+    for (const std::string& note : ready->notes) options_.note(about + note);
     count_light(renderer_.work(), order, *ready);
     light.held = options_.skip ? without_texels(*ready->held) : ready->held;
     light.handle = Renderer::begin_upload(ready->light).finish();
@@ -116,7 +118,8 @@ SceneLoader::LoadedMesh& SceneLoader::loaded_mesh(const std::string& id, bool wi
     LoadedMesh& loaded = meshes_[{id, with_tangents}];
     if (loaded.handle) return loaded;
     Mesh mesh = load_mesh_part(registry_, id);
-    for (const std::string& note : mesh.notes) options_.note(id + ": " + note);
+    const std::string about = id + ": ";
+    for (const std::string& note : mesh.notes) options_.note(about + note);
     const bool make = with_tangents && !mesh.has_tangents;
     if (make) make_tangents(mesh);
     count_mesh(renderer_.work(), mesh, make);

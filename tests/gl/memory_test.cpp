@@ -125,13 +125,14 @@ TEST(Memory, what_has_no_place_at_all_is_refused_in_one_sentence) {
     mesh.vertices[1].position.x = mesh.vertices[2].position.y = 1.0f;
     mesh.indices = {0, 1, 2};
     const TargetHandle undrawn = renderer().make_target(glm::ivec2(64), 1);
+    const Scene scene = make_scene(nullptr, quad());
     const std::pair<const char*, std::function<void()>> uploads[] = {
         {"a map", [] { renderer().upload_map(red_map(256)); }},
         {"a map", [] { renderer().upload_map(red_map(1)); }},
         {"the mesh", [&] { renderer().upload_mesh(mesh); }},
         {"the light", [&] { renderer().upload_environment(panorama, baked); }},
         {"the picture", [] { renderer().make_target(glm::ivec2(64), 1); }},
-        {"the picture", [&] { renderer().draw(make_scene(nullptr, quad()), *undrawn); }},
+        {"the picture", [&] { renderer().draw(scene, *undrawn); }},
     };
     for (const auto& [what, upload] : uploads) {
         std::string said;
