@@ -18,9 +18,9 @@ Features Renderer::State::begin_reference(const Scene& scene, const GpuEnvironme
     move_picture(frame, slice.jitter_px, target.size);
     const float exposure = frame.camera_position.w;
     set_switches();
-    if (slice.rows.x == 0) gl::begin_reference_surface(target, kind_of(features & kMaps));
+    if (slice.rows.x == 0) gl::begin_reference_surface(target, layers_for(features & kSurface));
     if (scene.mesh && slice.rows.x == 0)
-        rasterise(scene, frame, features & kMaps);
+        rasterise(scene, frame, features & kSurface);
     else
         upload_block(frame_rows, gl::kFrameSlot, frame);
     upload_block(material_rows, gl::kMaterialSlot, make_material_block(scene.material, features, exposure));

@@ -39,8 +39,10 @@ void upload_block(const gl::Buffer& buffer, GLuint slot, const Block& block) {
 inline constexpr Features kMaps = Features(Feature::AlbedoMap) | Features(Feature::RoughnessMap) |
                                   Features(Feature::MetallicMap) | Features(Feature::AoMap) |
                                   Features(Feature::NormalMap) | Features(Feature::EmissionMap);
-/// maps: of kMaps.
-SurfaceMaps kind_of(Features maps);
+/// What a stored surface depends on.
+inline constexpr Features kSurface = kMaps | Features(Feature::Sharp);
+/// surface: of kSurface.
+SurfaceLayers layers_for(Features surface);
 /// Of shaders that read a surface from its layers.
 std::vector<std::string> stored_defines(Features features);
 
@@ -49,9 +51,10 @@ inline constexpr int kIdleScratch = 32;  ///< pictures after which where they we
 
 /// By what decides their text.
 struct StoredPrograms {
-    std::map<std::pair<Features, std::vector<std::string>>, gl::Program> rasterise;  ///< by maps, and packed
-    std::map<int, gl::Program> fragments;                                            ///< by samples
-    std::map<std::pair<int, Features>, gl::Program> sort;                            ///< by samples and maps
+    std::map<std::pair<Features, std::vector<std::string>>, gl::Program>
+        rasterise;                                         ///< by kSurface, and packed
+    std::map<int, gl::Program> fragments;                  ///< by samples
+    std::map<std::pair<int, Features>, gl::Program> sort;  ///< by samples and kSurface
     std::map<Features, gl::Program> shade;
     std::map<int, gl::Program> resolve;  ///< by samples
 };
@@ -108,13 +111,13 @@ struct Renderer::State {
 
     // renderer_stored.cpp
     /// The mesh as frame sees it into the surface layers that are bound.
-    void rasterise(const Scene& scene, const blocks::FrameBlock& frame, Features maps);
+    void rasterise(const Scene& scene, const blocks::FrameBlock& frame, Features surface);
     const gl::Program& stored_surface(Features features);
-    gl::SurfacePrograms surface_programs(int samples, Features maps);
+    gl::SurfacePrograms surface_programs(int samples, Features surface);
     std::shared_ptr<const GpuSurfaces> surfaces_for(const Scene& scene, const RenderTarget& target,
                                                     Features features, Reuse reuse);
     /// old: one that nobody needs any more, or none.
-    std::shared_ptr<GpuSurfaces> rasterised(const Scene& scene, const RenderTarget& target, Features maps,
+    std::shared_ptr<GpuSurfaces> rasterised(const Scene& scene, const RenderTarget& target, Features surface,
                                             const std::shared_ptr<GpuSurfaces>& old);
     void shade_stored(const Scene& scene, const GpuEnvironment& environment, RenderTarget& target,
                       const std::shared_ptr<const GpuSurfaces>& surfaces);

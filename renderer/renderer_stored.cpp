@@ -55,21 +55,21 @@ std::vector<std::string> packed_defines(const Scene& scene, Features maps) {
     return defines;
 }
 
-SurfaceKey key_of(const Scene& scene, Features maps, glm::ivec2 size_px, int samples) {
+SurfaceKey key_of(const Scene& scene, Features surface, glm::ivec2 size_px, int samples) {
     SurfaceKey key{.mesh = scene.mesh,
-                   .features = maps,
+                   .features = surface,
                    .camera = scene.camera,
                    .crop = scene.crop,
                    .size_px = size_px,
                    .samples = samples};
     const Material& material = scene.material;
-    const auto reads = [&](MapSlot slot) { return (maps >> Features(slot) & 1u) != 0; };
+    const auto reads = [&](MapSlot slot) { return (surface >> Features(slot) & 1u) != 0; };
     for (std::size_t i = 0; i < key.maps.size(); ++i)
         if (reads(MapSlot(i))) key.maps[i] = scene.maps[i];
     const std::array scalars{&material.roughness, &material.metallic, &material.ao};
     for (std::size_t i = 0; i < scalars.size(); ++i)
         if (reads(MapSlot(std::size_t(MapSlot::Roughness) + i))) key.channels[i] = scalars[i]->channel;
-    if (maps != 0) key.uv = material.uv;
+    if ((surface & kMaps) != 0) key.uv = material.uv;
     if (!reads(MapSlot::Normal)) return key;
     key.normal_strength = material.normal.value;
     key.normal_convention = material.normal.convention;
@@ -78,9 +78,10 @@ SurfaceKey key_of(const Scene& scene, Features maps, glm::ivec2 size_px, int sam
 
 }  // namespace
 
-SurfaceMaps kind_of(Features maps) {
-    if (has(maps, Feature::EmissionMap)) return SurfaceMaps::SomeAndEmission;
-    return maps == 0 ? SurfaceMaps::None : SurfaceMaps::Some;
+SurfaceLayers layers_for(Features surface) {
+    return {.turns = has(surface, Feature::Sharp),
+            .maps = (surface & kMaps) != 0,
+            .emission = has(surface, Feature::EmissionMap)};
 }
 
 std::vector<std::string> stored_defines(Features features) {
@@ -98,7 +99,7 @@ const gl::Program& Renderer::State::stored_surface(Features features) {
     return program;
 }
 
-gl::SurfacePrograms Renderer::State::surface_programs(int samples, Features maps) {
+gl::SurfacePrograms Renderer::State::surface_programs(int samples, Features surface) {
     const auto sorting = [&](gl::Program& program, std::vector<std::string> defines) {
         if (!program)
             program = compiled("display.vert.glsl", "surfaces_sorted.frag.glsl",
@@ -106,7 +107,7 @@ gl::SurfacePrograms Renderer::State::surface_programs(int samples, Features maps
         return program.name();
     };
     return {.fragments = sorting(stored.fragments[samples], {"FRAGMENTS"}),
-            .sorted = sorting(stored.sort[{samples, maps}], stored_defines(maps)),
+            .sorted = sorting(stored.sort[{samples, surface}], stored_defines(surface)),
             .nothing = nothing.name()};
 }
 
@@ -119,14 +120,14 @@ std::shared_ptr<const GpuSurfaces> Renderer::State::surfaces_for(const Scene& sc
     if (!reuse || wanted == Reuse::None || !scene.mesh || scene.view.debug != DebugView::Final ||
         target.samples > 4 || scene.mesh->index_count / 3 >= most_triangles)
         return {};
-    const Features maps = features & kMaps;
-    if (gl::SurfaceScratch::bytes_for(target.size, target.samples, kind_of(maps)) > kMostScratchBytes)
+    const Features surface = features & kSurface;
+    if (gl::SurfaceScratch::bytes_for(target.size, target.samples, layers_for(surface)) > kMostScratchBytes)
         return {};
     if (wanted == Reuse::Within) {
         if (!pays_within(scene, features, whole_px(scene.crop, target.size))) return {};
-        return rasterised(scene, target, maps, {});
+        return rasterised(scene, target, surface, {});
     }
-    const SurfaceKey key = key_of(scene, maps, target.size, target.samples);
+    const SurfaceKey key = key_of(scene, surface, target.size, target.samples);
     if (auto found = kept_surfaces.find(key)) {
         if (++scratch_idle > kIdleScratch) scratch = {};
         return found;
@@ -134,10 +135,10 @@ std::shared_ptr<const GpuSurfaces> Renderer::State::surfaces_for(const Scene& sc
     // Software spends more on small triangles than on keeping what lies under them.
     const bool at_once =
         wanted == Reuse::Expected || wanted == Reuse::Standing ||
-        (gl::is_software() &&
-         gl::SurfaceScratch::bytes_for(target.size, target.samples, kind_of(maps)) <= kSmallScratchBytes);
+        (gl::is_software() && gl::SurfaceScratch::bytes_for(target.size, target.samples,
+                                                            layers_for(surface)) <= kSmallScratchBytes);
     if (!at_once && !kept_surfaces.was_drawn(key)) return {};
-    auto made = rasterised(scene, target, maps, kept_surfaces.take_old(key));
+    auto made = rasterised(scene, target, surface, kept_surfaces.take_old(key));
     kept_surfaces.keep(key, made);
     // One view's camera stood still for this; a sheet's is likely to move on.
     scratch_idle = 0;
@@ -145,15 +146,15 @@ std::shared_ptr<const GpuSurfaces> Renderer::State::surfaces_for(const Scene& sc
     return made;
 }
 
-void Renderer::State::rasterise(const Scene& scene, const blocks::FrameBlock& frame, Features maps) {
+void Renderer::State::rasterise(const Scene& scene, const blocks::FrameBlock& frame, Features surface) {
     upload_block(frame_rows, gl::kFrameSlot, frame);
     upload_block(material_rows, gl::kMaterialSlot,
-                 make_material_block(with_plain_values(scene.material), maps, 1.0f));
+                 make_material_block(with_plain_values(scene.material), surface, 1.0f));
     bind_maps(scene);
-    std::vector<std::string> defines = packed_defines(scene, maps);
-    gl::Program& program = stored.rasterise[{maps, defines}];
+    std::vector<std::string> defines = packed_defines(scene, surface);
+    gl::Program& program = stored.rasterise[{surface, defines}];
     if (!program) {
-        std::ranges::copy(stored_defines(maps), std::back_inserter(defines));
+        std::ranges::copy(stored_defines(surface), std::back_inserter(defines));
         program = compiled("mesh.vert.glsl", "surfaces.frag.glsl", defines);
     }
     glUseProgram(program.name());
@@ -161,17 +162,17 @@ void Renderer::State::rasterise(const Scene& scene, const blocks::FrameBlock& fr
 }
 
 std::shared_ptr<GpuSurfaces> Renderer::State::rasterised(const Scene& scene, const RenderTarget& target,
-                                                         Features maps,
+                                                         Features surface,
                                                          const std::shared_ptr<GpuSurfaces>& old) {
-    if (!scratch.fits(target.size, target.samples, kind_of(maps)))
-        scratch.make(target.size, target.samples, kind_of(maps));
+    if (!scratch.fits(target.size, target.samples, layers_for(surface)))
+        scratch.make(target.size, target.samples, layers_for(surface));
     set_switches();
     scratch.begin();
-    rasterise(scene, frame_of(scene, target.size, {}, 0.0f), maps);
+    rasterise(scene, frame_of(scene, target.size, {}, 0.0f), surface);
     if (is_counted(scene.crop)) ++work.surfaces_rasterised;
     count_draw(2, 2);
     return std::make_shared<GpuSurfaces>(
-        scratch.finish(surface_programs(target.samples, maps), old ? std::move(*old) : GpuSurfaces{}));
+        scratch.finish(surface_programs(target.samples, surface), old ? std::move(*old) : GpuSurfaces{}));
 }
 
 void Renderer::State::shade_stored(const Scene& scene, const GpuEnvironment& environment,

@@ -24,7 +24,7 @@ struct SurfaceKey {
     std::weak_ptr<const void> mesh;
     std::array<std::weak_ptr<const void>, kMapSlots> maps;  ///< only those that are read
     std::array<Channel, 3> channels{};  ///< of roughness, metallic and occlusion, where mapped
-    Features features = 0;              ///< which maps
+    Features features = 0;              ///< which maps, and whether sharp lobes need more
     Camera camera;
     Crop crop;
     glm::ivec2 size_px{0};

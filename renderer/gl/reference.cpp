@@ -183,8 +183,8 @@ void set_reference_points(ReferenceTarget& target, const SlicePoints& points) {
     fill(target.light_points, points.light);
 }
 
-void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps) {
-    if (!target.surface.fits(target.size, 1, maps)) target.surface.make(target.size, 1, maps);
+void begin_reference_surface(ReferenceTarget& target, SurfaceLayers kept) {
+    if (!target.surface.fits(target.size, 1, kept)) target.surface.make(target.size, 1, kept);
     target.surface.begin();
     if (!target.rests) return;
     bind_texture(kFragmentPlacesUnit, GL_TEXTURE_2D, target.counts);

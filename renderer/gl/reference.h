@@ -62,7 +62,7 @@ struct SlicePoints {
 void set_reference_points(ReferenceTarget& target, const SlicePoints& points);
 
 /// The mesh's material is then drawn into target.surface, where it stays until the next one.
-void begin_reference_surface(ReferenceTarget& target, SurfaceMaps maps);
+void begin_reference_surface(ReferenceTarget& target, SurfaceLayers kept);
 /// After the surface, what is drawn finds out what each pixel reflects of the light's cells.
 void begin_reference_cells(const ReferenceTarget& target);
 /// Then, what is behind the mesh.

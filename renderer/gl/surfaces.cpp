@@ -21,17 +21,16 @@ constexpr int kRoomStep = 32;  ///< rows: pictures that differ little have the s
 /// one.
 int room_for(int rows) { return std::max((rows + kRoomStep - 1) / kRoomStep, 1) * kRoomStep + 1; }
 
-int layer_count(SurfaceMaps maps) {
-    return maps == SurfaceMaps::None ? 3 : maps == SurfaceMaps::Some ? 4 : 5;
+/// In the order of shaders/stored.glsl: normals, turns, scalars, colours, emission. 0: not kept.
+std::array<GLenum, 5> formats_of(SurfaceLayers kept) {
+    const GLenum scalars = kept.maps ? GL_RGBA32F : kept.turns ? GL_R32F : 0;
+    const auto if_kept = [](bool is_kept) { return GLenum(is_kept ? GL_RGBA32F : 0); };
+    return {GL_RGBA32F, if_kept(kept.turns), scalars, if_kept(kept.maps), if_kept(kept.emission)};
 }
 
-/// Without maps the third layer is one number.
-bool is_number(int layer, int layers) { return layers == 3 && layer == 2; }
-GLenum format_of(int layer, int layers) { return is_number(layer, layers) ? GL_R32F : GL_RGBA32F; }
-
-std::uint64_t bytes_a_fragment(int layers) {
+std::uint64_t bytes_a_fragment(SurfaceLayers kept) {
     std::uint64_t bytes = 0;
-    for (int i = 0; i < layers; ++i) bytes += is_number(i, layers) ? 4 : 16;
+    for (const GLenum format : formats_of(kept)) bytes += format == 0 ? 0 : format == GL_R32F ? 4 : 16;
     return bytes;
 }
 
@@ -65,10 +64,13 @@ void attach(int place, GLenum kind, const Texture& texture) {
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + GLenum(place), kind, texture.name(), 0);
 }
 
-void draw_into(int attachments) {
-    std::array<GLenum, 7> places{};
-    for (int i = 0; i < attachments; ++i) places[std::size_t(i)] = GL_COLOR_ATTACHMENT0 + GLenum(i);
-    glDrawBuffers(attachments, places.data());
+/// first: layers go to the attachments from this one on, those before it are drawn into, too.
+void draw_into(int first, SurfaceLayers kept) {
+    std::vector<GLenum> places;
+    for (int i = 0; i < first; ++i) places.push_back(GL_COLOR_ATTACHMENT0 + GLenum(i));
+    for (const GLenum format : formats_of(kept))
+        places.push_back(format == 0 ? GL_NONE : GL_COLOR_ATTACHMENT0 + GLenum(places.size()));
+    glDrawBuffers(GLsizei(places.size()), places.data());
 }
 
 void require_complete(glm::ivec2 size) {
@@ -80,10 +82,11 @@ void require_complete(glm::ivec2 size) {
 }
 
 /// Layers with room for the rows, old's where they fit.
-void make_room(GpuSurfaces& surfaces, int layers, GpuSurfaces old) {
+void make_room(GpuSurfaces& surfaces, SurfaceLayers kept, GpuSurfaces old) {
+    const std::array<GLenum, 5> formats = formats_of(kept);
     const auto fits = [](int rows, int room) { return room >= rows && room <= 2 * (rows + kRoomStep); };
-    const auto has_layer = [](const Texture& layer) { return bool(layer); };
-    if (std::ranges::count_if(old.layers, has_layer) == layers && fits(surfaces.mesh_rows, old.mesh_room) &&
+    const auto is_alike = [](const Texture& layer, GLenum format) { return bool(layer) == (format != 0); };
+    if (std::ranges::equal(old.layers, formats, is_alike) && fits(surfaces.mesh_rows, old.mesh_room) &&
         fits(surfaces.rows, old.room)) {
         surfaces.mesh_room = old.mesh_room;
         surfaces.room = old.room;
@@ -92,10 +95,10 @@ void make_room(GpuSurfaces& surfaces, int layers, GpuSurfaces old) {
     }
     surfaces.mesh_room = room_for(surfaces.mesh_rows);
     surfaces.room = room_for(surfaces.rows);
-    for (std::size_t i = 0; i < std::size_t(layers); ++i)
-        surfaces.layers[i] =
-            make_texture(format_of(int(i), layers), {GpuSurfaces::kWidth, surfaces.mesh_room},
-                         {GL_RGBA, GL_FLOAT}, nullptr);
+    for (std::size_t i = 0; i < formats.size(); ++i)
+        if (formats[i] != 0)
+            surfaces.layers[i] = make_texture(formats[i], {GpuSurfaces::kWidth, surfaces.mesh_room},
+                                              {GL_RGBA, GL_FLOAT}, nullptr);
 }
 
 /// Where every fragment was found, and which fragments make up a pixel.
@@ -201,15 +204,15 @@ void draw_all(GLuint program, GLuint nothing, glm::ivec4 box) {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-bool SurfaceScratch::fits(glm::ivec2 size_px, int samples, SurfaceMaps maps) const {
-    return size_px_ == size_px && samples_ == samples && maps_ == maps;
+bool SurfaceScratch::fits(glm::ivec2 size_px, int samples, SurfaceLayers kept) const {
+    return size_px_ == size_px && samples_ == samples && kept_ == kept;
 }
 
-std::uint64_t SurfaceScratch::bytes_for(glm::ivec2 size_px, int samples, SurfaceMaps maps) {
-    return texels_in(size_px) * std::uint64_t(samples) * (bytes_a_fragment(layer_count(maps)) + 8);
+std::uint64_t SurfaceScratch::bytes_for(glm::ivec2 size_px, int samples, SurfaceLayers kept) {
+    return texels_in(size_px) * std::uint64_t(samples) * (bytes_a_fragment(kept) + 8);
 }
 
-void SurfaceScratch::make(glm::ivec2 size_px, int samples, SurfaceMaps maps) {
+void SurfaceScratch::make(glm::ivec2 size_px, int samples, SurfaceLayers kept) {
     *this = {};
     const KeepTextureBindings keep;
     framebuffer_ = Framebuffer::make();
@@ -218,11 +221,13 @@ void SurfaceScratch::make(glm::ivec2 size_px, int samples, SurfaceMaps maps) {
     samples_ = samples;
     fragments_ = make_layer(GL_R32F, size_px, samples);
     attach(0, kind(), fragments_);
-    for (int i = 0; i < layer_count(maps); ++i) {
-        layers_[std::size_t(i)] = make_layer(format_of(i, layer_count(maps)), size_px, samples);
-        attach(1 + i, kind(), layers_[std::size_t(i)]);
+    const std::array<GLenum, 5> formats = formats_of(kept);
+    for (std::size_t i = 0; i < formats.size(); ++i) {
+        if (formats[i] == 0) continue;
+        layers_[i] = make_layer(formats[i], size_px, samples);
+        attach(1 + int(i), kind(), layers_[i]);
     }
-    draw_into(1 + layer_count(maps));
+    draw_into(1, kept);
     depth_ = Renderbuffer::make();
     glBindRenderbuffer(GL_RENDERBUFFER, depth_.name());
     if (samples > 1)
@@ -233,12 +238,12 @@ void SurfaceScratch::make(glm::ivec2 size_px, int samples, SurfaceMaps maps) {
     glBindRenderbuffer(GL_RENDERBUFFER, 0);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.name());
     require_complete(size_px);
-    maps_ = maps;
+    kept_ = kept;
 }
 
 void SurfaceScratch::begin() const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-    draw_into(1 + layer_count(maps_));
+    draw_into(1, kept_);
     glViewport(0, 0, size_px_.x, size_px_.y);
     const GLfloat far = 1.0f;
     const GLfloat nothing[] = {0.0f, 0.0f, 0.0f, 0.0f};
@@ -274,12 +279,12 @@ std::vector<float> SurfaceScratch::read_fragments(const SurfacePrograms& program
 void SurfaceScratch::draw_sorted(const GpuSurfaces& surfaces, const SurfacePrograms& programs) const {
     const Framebuffer framebuffer = Framebuffer::make();
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-    const int layers = layer_count(maps_);
-    for (int i = 0; i < layers; ++i) {
-        attach(i, GL_TEXTURE_2D, surfaces.layers[std::size_t(i)]);
-        bind_texture(kFirstStoredUnit + GLuint(i), kind(), layers_[std::size_t(i)]);
+    for (std::size_t i = 0; i < layers_.size(); ++i) {
+        if (!layers_[i]) continue;
+        attach(int(i), GL_TEXTURE_2D, surfaces.layers[i]);
+        bind_texture(kFirstStoredUnit + GLuint(i), kind(), layers_[i]);
     }
-    draw_into(layers);
+    draw_into(0, kept_);
     require_complete({GpuSurfaces::kWidth, surfaces.mesh_rows});
     shade_rows(surfaces, StoredRows::Mesh, programs.sorted, programs.nothing);
 }
@@ -299,8 +304,7 @@ GpuSurfaces SurfaceScratch::finish(const SurfacePrograms& programs, GpuSurfaces 
                          .fragments_of_samples = {},
                          .mesh_fragments = fragments.mesh.size(),
                          .bytes = 0};
-    const int layers = layer_count(maps_);
-    make_room(surfaces, layers, std::move(old));
+    make_room(surfaces, kept_, std::move(old));
     bind_texture(kFragmentPlacesUnit, GL_TEXTURE_2D, surfaces.places);
     draw_sorted(surfaces, programs);
     surfaces.fragment_of_pixel =
@@ -308,7 +312,7 @@ GpuSurfaces SurfaceScratch::finish(const SurfacePrograms& programs, GpuSurfaces 
     surfaces.fragments_of_samples = make_mixed(fragments);
     check_memory("the surface of the picture");
     const std::uint64_t a_column =
-        bytes_a_fragment(layers) * std::uint64_t(surfaces.mesh_room) + 8 * std::uint64_t(surfaces.room);
+        bytes_a_fragment(kept_) * std::uint64_t(surfaces.mesh_room) + 8 * std::uint64_t(surfaces.room);
     surfaces.bytes =
         a_column * GpuSurfaces::kWidth + 4 * texels_in(size_px_) + 16 * std::uint64_t(fragments.mixed.size());
     return surfaces;

@@ -17,7 +17,13 @@
 
 namespace patina {
 
-enum class SurfaceMaps { None, Some, SomeAndEmission };
+/// What of a surface is kept beside its normal.
+struct SurfaceLayers {
+    bool turns = false;  ///< how the normal changes over the pixel, in full: sharp lobes follow it
+    bool maps = false;
+    bool emission = false;  ///< has a map
+    bool operator==(const SurfaceLayers&) const = default;
+};
 
 struct GpuSurfaces {
     static constexpr int kWidth = 1024;  ///< fragments in a row
@@ -26,8 +32,7 @@ struct GpuSurfaces {
     int mesh_rows = 0;  ///< of fragments of the mesh; the rest lies behind it
     int rows = 0;
     int mesh_room = 0, room = 0;        ///< rows that the layers have, and that all has
-    std::array<gl::Texture, 5> layers;  ///< of the mesh, in the order of shaders/stored.glsl; those of maps
-                                        ///< may lack
+    std::array<gl::Texture, 5> layers;  ///< of the mesh, in the order of shaders/stored.glsl; some may lack
     gl::Texture places;                 ///< of all, in the picture
     gl::Texture fragment_of_pixel;
     gl::Texture fragments_of_samples;
@@ -46,11 +51,11 @@ struct SurfacePrograms {
 /// Where surfaces are rasterised; kept while the camera moves.
 class SurfaceScratch {
 public:
-    bool fits(glm::ivec2 size_px, int samples, SurfaceMaps maps) const;
+    bool fits(glm::ivec2 size_px, int samples, SurfaceLayers kept) const;
     /// Bytes it will take.
-    static std::uint64_t bytes_for(glm::ivec2 size_px, int samples, SurfaceMaps maps);
+    static std::uint64_t bytes_for(glm::ivec2 size_px, int samples, SurfaceLayers kept);
     /// Throws std::runtime_error where the driver has no room.
-    void make(glm::ivec2 size_px, int samples, SurfaceMaps maps);
+    void make(glm::ivec2 size_px, int samples, SurfaceLayers kept);
     /// Empty, bound and ready for the mesh to be drawn into.
     void begin() const;
     /// What was drawn, as it lies there, for shaders to read. Precondition: one sample.
@@ -65,7 +70,7 @@ private:
 
     glm::ivec2 size_px_{0};
     int samples_ = 0;
-    SurfaceMaps maps_ = SurfaceMaps::None;
+    SurfaceLayers kept_;
     Texture fragments_;  ///< of which triangle
     Texture ids_;        ///< the same, four samples a texel
     Framebuffer ids_framebuffer_;

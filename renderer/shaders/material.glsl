@@ -79,4 +79,5 @@ struct Geometry {
     vec3 N;                 // as shaded
     vec3 V;
     PixelNormals around;    // of N
+    float spread;           // pixel_spread of that
 };

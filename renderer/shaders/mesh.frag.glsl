@@ -46,7 +46,7 @@ void add_lights(inout Reflected sum, Surface s, ReflectionWeights w, Geometry g)
     vec3 V = g.V;
     vec3 F0 = base_reflectance(s.albedo, s.metallic);
     float NoV = max(dot(N, V), 1e-4);
-    float spread = pixel_spread(g.around);
+    float spread = g.spread;
     for (int i = 0; i < PATINA_MAX_LIGHTS; ++i) {
         if (float(i) >= counts.x) break;
         vec3 L = light_direction[i].xyz;

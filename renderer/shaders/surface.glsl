@@ -104,5 +104,6 @@ PixelNormals pixel_normals(vec3 N) {
 Geometry read_geometry(vec2 st) {
     vec3 V = -normalize(camera_ray(gl_FragCoord.xy));
     vec3 N = shading_normal(V, st);
-    return Geometry(N, V, pixel_normals(N));
+    PixelNormals around = pixel_normals(N);
+    return Geometry(N, V, around, pixel_spread(around));
 }

@@ -23,11 +23,15 @@ void main() {
 #include "places.glsl"
 
 uniform Samples stored_normals;
-uniform Samples stored_turns;
-uniform Samples stored_scalars;
 layout(location = 0) out vec4 sorted_normal;
+#ifdef HAS_SHARP
+uniform Samples stored_turns;
 layout(location = 1) out vec4 sorted_turn;
+#endif
+#if defined(HAS_SHARP) || defined(HAS_STORED_MAPS)
+uniform Samples stored_scalars;
 layout(location = 2) out vec4 sorted_scalar;
+#endif
 #ifdef HAS_STORED_MAPS
 uniform Samples stored_colors;
 layout(location = 3) out vec4 sorted_color;
@@ -43,8 +47,12 @@ void main() {
     ivec2 at = ivec2(place.xy);
     int i = int(place.z);
     sorted_normal = texelFetch(stored_normals, at, i);
+#ifdef HAS_SHARP
     sorted_turn = texelFetch(stored_turns, at, i);
+#endif
+#if defined(HAS_SHARP) || defined(HAS_STORED_MAPS)
     sorted_scalar = texelFetch(stored_scalars, at, i);
+#endif
 #ifdef HAS_STORED_MAPS
     sorted_color = texelFetch(stored_colors, at, i);
 #endif
