@@ -128,7 +128,9 @@ std::shared_ptr<const GpuSurfaces> Renderer::State::surfaces_for(const Scene& sc
         return rasterised(scene, target, surface, {});
     }
     const SurfaceKey key = key_of(scene, surface, target.size, target.samples);
-    if (auto found = kept_surfaces.find(key)) {
+    SurfaceKey sharp = key;  // holds all that others need
+    sharp.features |= Features(Feature::Sharp);
+    if (auto found = kept_surfaces.find(sharp, key)) {
         if (++scratch_idle > kIdleScratch) scratch = {};
         return found;
     }
@@ -179,7 +181,8 @@ void Renderer::State::shade_stored(const Scene& scene, const GpuEnvironment& env
                                    RenderTarget& target, const std::shared_ptr<const GpuSurfaces>& from) {
     set_switches();
     gl::begin_shading(target.stored, from, target.full_float);
-    const Features features = prepare(scene, environment, target);
+    Features features = prepare(scene, environment, target);
+    if (from->kept.turns) features |= Features(Feature::Sharp);  // the same picture, without another program
     gl::bind_surface_layers(*from);
     gl::shade_rows(*from, gl::StoredRows::Mesh, stored_surface(features).name(), nothing.name());
     if (is_counted(scene.crop)) ++work.views_from_surfaces;

@@ -51,10 +51,13 @@ inline bool operator==(const SurfaceKey& a, const SurfaceKey& b) {
 template <class Surface>
 class SurfaceCache {
 public:
-    std::shared_ptr<const Surface> find(const SurfaceKey& key) {
+    std::shared_ptr<const Surface> find(const SurfaceKey& key) { return find(key, key); }
+    /// The first of the two that is there, for one picture.
+    std::shared_ptr<const Surface> find(const SurfaceKey& key, const SurfaceKey& other) {
         ++now_;
         std::erase_if(kept_, [&](const Kept& each) { return now_ - each.used > kIdlePictures; });
-        const auto found = std::ranges::find(kept_, key, &Kept::key);
+        auto found = std::ranges::find(kept_, key, &Kept::key);
+        if (found == kept_.end()) found = std::ranges::find(kept_, other, &Kept::key);
         if (found == kept_.end()) return {};
         found->used = now_;
         return found->surface;

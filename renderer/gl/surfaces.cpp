@@ -296,6 +296,7 @@ GpuSurfaces SurfaceScratch::finish(const SurfacePrograms& programs, GpuSurfaces 
         throw std::runtime_error("The picture has more fragments than the graphics driver has room for.");
     GpuSurfaces surfaces{.size_px = size_px_,
                          .samples = samples_,
+                         .kept = kept_,
                          .mesh_rows = fragments.mesh_rows,
                          .rows = fragments.rows,
                          .layers = {},

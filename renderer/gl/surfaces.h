@@ -29,6 +29,7 @@ struct GpuSurfaces {
     static constexpr int kWidth = 1024;  ///< fragments in a row
     glm::ivec2 size_px{1};
     int samples = 1;
+    SurfaceLayers kept;
     int mesh_rows = 0;  ///< of fragments of the mesh; the rest lies behind it
     int rows = 0;
     int mesh_room = 0, room = 0;        ///< rows that the layers have, and that all has
