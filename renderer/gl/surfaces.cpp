@@ -64,13 +64,13 @@ void attach(int place, GLenum kind, const Texture& texture) {
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + GLenum(place), kind, texture.name(), 0);
 }
 
-/// first: layers go to the attachments from this one on, those before it are drawn into, too.
-void draw_into(int first, SurfaceLayers kept) {
-    std::vector<GLenum> places;
-    for (int i = 0; i < first; ++i) places.push_back(GL_COLOR_ATTACHMENT0 + GLenum(i));
-    for (const GLenum format : formats_of(kept))
-        places.push_back(format == 0 ? GL_NONE : GL_COLOR_ATTACHMENT0 + GLenum(places.size()));
-    glDrawBuffers(GLsizei(places.size()), places.data());
+/// first: the attachment of the first layer, 0 or, where what comes before them is drawn, too, 1.
+void draw_into(std::size_t first, SurfaceLayers kept) {
+    const std::array<GLenum, 5> formats = formats_of(kept);
+    std::array<GLenum, 1 + formats.size()> places{GL_COLOR_ATTACHMENT0};
+    for (std::size_t i = 0; i < formats.size(); ++i)
+        places[first + i] = formats[i] == 0 ? GL_NONE : GL_COLOR_ATTACHMENT0 + GLenum(first + i);
+    glDrawBuffers(GLsizei(first + formats.size()), places.data());
 }
 
 void require_complete(glm::ivec2 size) {

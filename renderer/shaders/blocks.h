@@ -25,14 +25,14 @@ using vec4 = glm::vec4;
 PATINA_BLOCK(FrameBlock) {
     vec4 view_projection[4];  // columns
     vec4 camera_position;     // xyz world; w: exposure as a factor
-    vec4 ray_corner;          // xyz: world direction through the picture's lower left corner; w: pixel's solid
-                              // angle
-    vec4 ray_right;           // added once a pixel to the right; w: largest finite output
-    vec4 ray_up;              // added once a pixel upwards; w: roughness of the blurred backdrop
-    vec4 env_from_world[3];   // rows of the rotation from world to environment
-    vec4 env_scale;           // panorama, levels, irradiance; w: texels per radian of the panorama
-    vec4 level_layout;        // level count − 1, layers; roughness and alpha of lobes that need no panorama
-    vec4 level_ends;          // log2 of the first and the last level's roughness
+    vec4 ray_corner;         // xyz: world direction through the picture's lower left corner; w: pixel's solid
+                             // angle
+    vec4 ray_right;          // added once a pixel to the right; w: largest finite output
+    vec4 ray_up;             // added once a pixel upwards; w: roughness of the blurred backdrop
+    vec4 env_from_world[3];  // rows of the rotation from world to environment
+    vec4 env_scale;          // panorama, levels, irradiance; w: texels per radian of the panorama
+    vec4 level_layout;       // level count − 1, layers; roughness and alpha of lobes that need no panorama
+    vec4 level_ends;         // log2 of the first and the last level's roughness
     vec4 level_slope[PATINA_LEVEL_ROWS];  // level index = Σ clamp(log2(roughness)·slope + offset, 0, 1)
     vec4 level_offset[PATINA_LEVEL_ROWS];
     vec4 light_direction[PATINA_MAX_LIGHTS];   // xyz world, unit; w: ¼ of its mean-square radius, added to
