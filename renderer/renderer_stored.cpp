@@ -12,7 +12,7 @@ namespace patina {
 namespace {
 
 constexpr std::uint64_t kMostScratchBytes = std::uint64_t{384} << 20;
-constexpr std::uint64_t kSmallScratchBytes = std::uint64_t{64} << 20;
+constexpr int kSmallPixels = 1 << 18;
 
 constexpr std::int64_t kSmallTriangle = 64;  ///< pixels of the picture a triangle of the mesh
 bool has_small_triangles(const Scene& scene, glm::ivec2 whole) {
@@ -135,10 +135,8 @@ std::shared_ptr<const GpuSurfaces> Renderer::State::surfaces_for(const Scene& sc
         return found;
     }
     // Software spends more on small triangles than on keeping what lies under them.
-    const bool at_once =
-        wanted == Reuse::Expected || wanted == Reuse::Standing ||
-        (gl::is_software() && gl::SurfaceScratch::bytes_for(target.size, target.samples,
-                                                            layers_for(surface)) <= kSmallScratchBytes);
+    const bool at_once = wanted == Reuse::Expected || wanted == Reuse::Standing ||
+                         (gl::is_software() && target.size.x * target.size.y <= kSmallPixels);
     if (!at_once && !kept_surfaces.was_drawn(key)) return {};
     auto made = rasterised(scene, target, surface, kept_surfaces.take_old(key));
     kept_surfaces.keep(key, made);
