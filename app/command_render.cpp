@@ -80,13 +80,16 @@ ImageMetadata described_with(const std::string& what, const std::string& made_fr
     return metadata;
 }
 
+/// Nothing was to do, which the ledger says, too.
+void say_up_to_date(const RenderArgs& args, const fs::path& output) {
+    write_stats(args.stats, {});
+    say(path_to_utf8(output) + " is up to date");
+}
+
 void render_shots(const RenderArgs& args, const Registry& registry, const fs::path& output) {
     const ImageExporter& exporter = image_exporter(registry, output);
     const std::vector<Shot> shots = missing_shots(args, output);
-    if (shots.empty()) {
-        write_stats(args.stats, {});
-        return say(path_to_utf8(output) + " is up to date");
-    }
+    if (shots.empty()) return say_up_to_date(args, output);
     Studio studio(registry, args.scene);
     Scene scene = studio.loader.scene(args.presets.front(), args.scene);
     scene.environment =
@@ -140,8 +143,7 @@ int compare_file(const RenderArgs& args, const Registry& registry) {
     require_own_settings(args.scene, args.presets.front());
     const std::string made = args.up_to_date ? made_from(args) : std::string{};
     if (args.up_to_date && is_up_to_date(utf8_to_path(args.output), made)) {
-        write_stats(args.stats, {});
-        say(args.output + " is up to date");
+        say_up_to_date(args, utf8_to_path(args.output));
         return 0;
     }
     Studio studio(registry, args.scene);
@@ -164,8 +166,7 @@ int run_compare(const RenderArgs& args, const Registry& registry) {
     const bool radiance = wants_radiance(args.output);
     const std::string made = args.up_to_date ? made_from(args) : std::string{};
     if (args.up_to_date && is_up_to_date(utf8_to_path(args.output), made)) {
-        write_stats(args.stats, {});
-        say(args.output + " is up to date");
+        say_up_to_date(args, utf8_to_path(args.output));
         return 0;
     }
     Studio studio(registry, args.scene);

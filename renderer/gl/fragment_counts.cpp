@@ -15,7 +15,7 @@ FragmentCounts::FragmentCounts()
 
 void FragmentCounts::begin() {
     if (!counts_) return;
-    if (free_.empty()) free_.push_back(Handle<QueryKind>::make());
+    if (free_.empty()) free_.push_back(Query::make());
     glBeginQuery(GL_FRAGMENT_SHADER_INVOCATIONS_ARB, free_.back().name());
 }
 

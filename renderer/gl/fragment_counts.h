@@ -10,15 +10,6 @@
 
 namespace patina::gl {
 
-struct QueryKind {
-    static GLuint create() {
-        GLuint name = 0;
-        glGenQueries(1, &name);
-        return name;
-    }
-    static void destroy(GLuint name) { glDeleteQueries(1, &name); }
-};
-
 class FragmentCounts {
 public:
     FragmentCounts();
@@ -30,7 +21,7 @@ public:
 
 private:
     bool counts_;
-    std::deque<Handle<QueryKind>> asked_, free_;
+    std::deque<Query> asked_, free_;
 };
 
 }  // namespace patina::gl

@@ -1,4 +1,4 @@
-// OpenGL objects that are deleted when their owner goes: one move-only type, seven kinds. Needs a current
+// OpenGL objects that are deleted when their owner goes: one move-only type, eight kinds. Needs a current
 // context.
 #pragma once
 
@@ -67,6 +67,14 @@ struct VertexArrayKind {
     }
     static void destroy(GLuint name) { glDeleteVertexArrays(1, &name); }
 };
+struct QueryKind {
+    static GLuint create() {
+        GLuint name = 0;
+        glGenQueries(1, &name);
+        return name;
+    }
+    static void destroy(GLuint name) { glDeleteQueries(1, &name); }
+};
 struct FramebufferKind {
     static GLuint create() {
         GLuint name = 0;
@@ -95,5 +103,6 @@ using VertexArray = Handle<VertexArrayKind>;
 using Framebuffer = Handle<FramebufferKind>;
 using Renderbuffer = Handle<RenderbufferKind>;
 using Program = Handle<ProgramKind>;
+using Query = Handle<QueryKind>;
 
 }  // namespace patina::gl

@@ -262,15 +262,11 @@ std::vector<float> read_replicates(const ReferenceTarget& target) {
 
 void wait_for_gpu() { glFinish(); }
 
-GpuTimer::GpuTimer() {
-    glGenQueries(1, &query_);
-    glBeginQuery(GL_TIME_ELAPSED, query_);
-}
-GpuTimer::~GpuTimer() { glDeleteQueries(1, &query_); }
+GpuTimer::GpuTimer() { glBeginQuery(GL_TIME_ELAPSED, query_.name()); }
 double GpuTimer::milliseconds() const {
     glEndQuery(GL_TIME_ELAPSED);
     GLuint64 nanoseconds = 0;
-    glGetQueryObjectui64v(query_, GL_QUERY_RESULT, &nanoseconds);
+    glGetQueryObjectui64v(query_.name(), GL_QUERY_RESULT, &nanoseconds);
     return double(nanoseconds) * 1e-6;
 }
 

@@ -93,13 +93,10 @@ void wait_for_gpu();
 class GpuTimer {
 public:
     GpuTimer();
-    ~GpuTimer();
-    GpuTimer(const GpuTimer&) = delete;
-    GpuTimer& operator=(const GpuTimer&) = delete;
     double milliseconds() const;  ///< ends the measurement and waits for it; call once
 
 private:
-    GLuint query_ = 0;
+    Query query_ = Query::make();
 };
 
 /// The panorama as the shader sees it, without exposure.

@@ -334,13 +334,19 @@ TEST(Editor, shows_the_first_picture_in_the_frame_that_draws_it) {
     EXPECT_NE(read_text(stats).find("first_lit_frame"), std::string::npos);
 }
 
-TEST(Editor, decodes_an_environment_once_and_never_again) {
-    const Folder home;
-    start_small(home, 500, 360);
+/// room.exr, an environment.
+Image write_room(const Folder& home) {
     Image room = make_image(64, 32, 3, PixelType::F32);
     for (int y = 0; y < room.height; ++y)
         for (int x = 0; x < room.width; ++x) set_texel(room, x, y, x % 3, 0.5f + 0.02f * float(y));
     save_image(home / "room.exr", room);
+    return room;
+}
+
+TEST(Editor, decodes_an_environment_once_and_never_again) {
+    const Folder home;
+    start_small(home, 500, 360);
+    Image room = write_room(home);
     const auto visit = [&](bool first) {
         const fs::path stats = home / "stats.json";
         Program program(
@@ -366,10 +372,7 @@ TEST(Editor, has_the_light_that_a_mode_beside_the_views_own_looks_up) {
     const auto levels = [](const std::string& more) {
         const Folder home;
         start_small(home, 700, 500);
-        Image room = make_image(64, 32, 3, PixelType::F32);
-        for (int y = 0; y < room.height; ++y)
-            for (int x = 0; x < room.width; ++x) set_texel(room, x, y, x % 3, 0.5f + 0.02f * float(y));
-        save_image(home / "room.exr", room);
+        write_room(home);
         const fs::path stats = home / "stats.json";
         Program program(home,
                         drive_arguments(home, R"(
