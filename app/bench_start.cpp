@@ -33,6 +33,7 @@ double now_s() {
 /// One start of a program: from before the process to its first frame with a picture.
 struct Start {
     double wall_ms = 0.0, cpu_ms = 0.0, peak_memory_mib = 0.0;
+    double frames_before = 0.0;  ///< shown without the picture
 };
 struct StartCase {
     std::string name;
@@ -56,7 +57,8 @@ Start start_once(const StartCase& each, const fs::path& folder) {
     const Json& mark = json.at("first_lit_frame");
     return {.wall_ms = 1e3 * (mark.at("at_s").get<double>() - before_s),
             .cpu_ms = 1e3 * mark.at("cpu_s").get<double>(),
-            .peak_memory_mib = mark.at("peak_memory_bytes").get<double>() / 1048576.0};
+            .peak_memory_mib = mark.at("peak_memory_bytes").get<double>() / 1048576.0,
+            .frames_before = mark.value("frames_before", 0.0)};
 }
 
 double median_of(const std::vector<Start>& starts, double Start::*member) {
@@ -152,14 +154,19 @@ Json bench_start(const BenchContext& context) {
     std::vector<StartCase> cases = start_cases(folder.path());
     start_all(cases, folder.path(), context.repetitions());
     Json json{{"window_px", {kWidth, kHeight}}, {"cases", Json::array()}};
-    std::printf("%-32s %10s %10s %10s\n", "first frame with a picture", "wall ms", "CPU ms", "peak MiB");
+    std::printf("%-32s %10s %10s %10s %14s\n", "first frame with a picture", "wall ms", "CPU ms", "peak MiB",
+                "frames before");
     for (const StartCase& each : cases) {
         const double wall = median_of(each.starts, &Start::wall_ms);
         const double cpu = median_of(each.starts, &Start::cpu_ms);
         const double memory = median_of(each.starts, &Start::peak_memory_mib);
-        std::printf("%-32s %10.0f %10.0f %10.0f\n", each.name.c_str(), wall, cpu, memory);
-        json["cases"].push_back(
-            {{"name", each.name}, {"wall_ms", wall}, {"cpu_ms", cpu}, {"peak_memory_mib", memory}});
+        const double before = median_of(each.starts, &Start::frames_before);
+        std::printf("%-32s %10.0f %10.0f %10.0f %14.0f\n", each.name.c_str(), wall, cpu, memory, before);
+        json["cases"].push_back({{"name", each.name},
+                                 {"wall_ms", wall},
+                                 {"cpu_ms", cpu},
+                                 {"peak_memory_mib", memory},
+                                 {"frames_before", before}});
     }
     json["idle_s"] = kIdleSeconds;
     json["idle"] = Json::array();

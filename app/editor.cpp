@@ -134,8 +134,15 @@ void Loop::think() {
     settle(editor_, true);
 }
 
+/// The first frame has the picture in it; where that takes long, the interface comes before.
+bool Loop::awaits_first_picture() const {
+    const Reconciler& reconciler = editor_.reconciler;
+    return window_.frames() == 0 && !editor_.document.sheet && reconciler.pending() &&
+           !reconciler.drawable() && window_.time_s() < began_s_ + kFirstPictureSeconds;
+}
+
 bool Loop::needs_frame() const {
-    if (!is_seen_) return false;
+    if (!is_seen_ || awaits_first_picture()) return false;
     // What the first picture lacks is uploaded before the interface is drawn once more without it.
     if (!has_drawn_ && more_uploads_ && window_.frames() > 0 && !editor_.document.sheet) return false;
     return frames_wanted_ > 0 || animating_ || window_.time_s() >= redraw_at_s_ ||
@@ -179,6 +186,14 @@ void Loop::remember_shown() {
     last_frame_s_ = window_.time_s();
 }
 
+/// A frame that nobody sees: only then it is known how large the picture in the first one is.
+void Loop::lay_out(ui::PanelContext& context) {
+    window_.begin_frame();
+    ui::draw_workspace(context);
+    window_.drop_frame();
+    place_px_ = context.result.viewport_size_px;
+}
+
 void Loop::frame() {
     remember_shown();
     window_.follow_scale();
@@ -204,6 +219,7 @@ void Loop::frame() {
                              .mesh_info = editor_.reconciler.mesh_info(),
                              .environment_info = editor_.reconciler.environment_info(),
                              .panels = editor_.registry.panels};
+    if (window_.frames() == 0) lay_out(context);
     if (!has_drawn_) draw_view(place_px_);  // the first one is seen in this frame, not in the next
     context.sheet = editor_.document.sheet ? &*editor_.document.sheet : nullptr;
     fill_sheet(context);
@@ -233,7 +249,7 @@ void Loop::frame() {
     window_.end_frame(screenshot ? &picture : nullptr);
     if (drew_s_) pace_.took(shown_, window_.time_s() - *std::exchange(drew_s_, std::nullopt));
     ++renderer_.work().frames_shown;
-    if (shown && !first_lit_frame_) first_lit_frame_ = mark_process();
+    if (shown && !first_lit_frame_) first_lit_frame_ = {mark_process(), window_.frames() - 1};
     if (screenshot) save_image(*screenshot, picture);
 }
 
@@ -279,6 +295,7 @@ double Loop::sleep_s() const {
     double wait = next_errand_s(editor_, window_.time_s());
     if (drive_) wait = std::min(wait, drive_->patient_for_s(window_.time_s()));
     if (!is_seen_) return std::max(wait, 0.001);
+    if (awaits_first_picture()) wait = std::min(wait, began_s_ + kFirstPictureSeconds - window_.time_s());
     if (wants_refining()) wait = std::min(wait, kStillSeconds);
     if (editor_.thumbnails.busy()) wait = std::min(wait, kAnimationSeconds);
     wait = std::min(wait, redraw_at_s_ - window_.time_s());
@@ -320,6 +337,7 @@ void Loop::live() {
 }
 
 int Loop::run() {
+    began_s_ = window_.time_s();
     fill_catalog(editor_);
     read_presets(editor_);
     open_what_was_named();

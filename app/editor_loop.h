@@ -22,6 +22,8 @@ inline constexpr int kFramesAfterEvent =
     3;  ///< the one that shows it, and two in which popups and layouts settle
 inline constexpr double kStillSeconds =
     0.2;  ///< without a change before a quick picture is drawn again, well
+inline constexpr double kFirstPictureSeconds =
+    0.5;  ///< a picture that takes longer to prepare is not in the first frame
 
 /// The loop around an Editor: window, viewport and script.
 class Loop {
@@ -37,7 +39,9 @@ private:
     void live();
     void take_events();
     void think();
+    bool awaits_first_picture() const;
     bool needs_frame() const;
+    void lay_out(ui::PanelContext& context);
     void frame();
     void draw_view(glm::ivec2 size_px);
     void draw_sheet(const std::vector<ui::SheetSize>& seen);
@@ -86,7 +90,7 @@ private:
     std::array<TargetHandle, kPaces> targets_;
     glm::ivec2 size_px_{0};   ///< of the picture on the screen
     glm::ivec2 place_px_{0};  ///< that the last frame had for it
-    ViewPace pace_;
+    ViewPace pace_{Renderer::is_software()};
     Pace shown_ = Pace::Good;
     double changed_s_ = 0.0;        ///< when the picture was last another one
     std::optional<double> drew_s_;  ///< when this frame's picture was begun
@@ -103,10 +107,11 @@ private:
     std::uint64_t changes_shown_ = 0, thumbnails_shown_ = 0;
     std::vector<Jobs::Status> jobs_shown_;
     bool pending_shown_ = false;
+    double began_s_ = 0.0;  ///< when the window was there
     double last_frame_s_ = 0.0;
     double event_s_ = 0.0;                                          ///< when something last came from outside
     double redraw_at_s_ = std::numeric_limits<double>::infinity();  ///< of the window's time
-    std::optional<ProcessMark> first_lit_frame_;
+    std::optional<FirstLitFrame> first_lit_frame_;
     std::string window_title_;
     std::optional<ui::Drop> drop_;
     std::optional<ui::ProbedPoint> probed_;  ///< where the mouse was in the last frame

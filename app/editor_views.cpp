@@ -98,7 +98,7 @@ void Loop::draw_view(glm::ivec2 size_px) {
     if (!changed && !(wants_refining() && now_s - changed_s_ >= kStillSeconds)) return;
     // The very first picture is looked at before another one's shaders are compiled.
     if (has_drawn_ && !first_lit_frame_) return;
-    const Pace quality = changed && has_drawn_ ? pace_.while_moving() : Pace::Good;
+    const Pace quality = changed ? pace_.while_moving() : Pace::Good;
     const glm::ivec2 pixels = quality == Pace::Rough ? (size_px + 1) / 2 : size_px;
     TargetHandle& target = targets_[int(quality)];
     if (!target || Renderer::size_px(*target) != pixels)

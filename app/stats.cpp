@@ -102,15 +102,16 @@ ProcessMark mark_process() {
 void write_stats(const std::string& file, const WorkLedger& work) { write_stats(file, work, std::nullopt); }
 
 void write_stats(const std::string& file, const WorkLedger& work,
-                 const std::optional<ProcessMark>& first_lit_frame) {
+                 const std::optional<FirstLitFrame>& first_lit_frame) {
     if (file.empty()) return;
     Json json = to_json(work);
     json["cpu_s"] = process_cpu_s();
     json["peak_memory_bytes"] = process_peak_memory_bytes();
     if (first_lit_frame)
-        json["first_lit_frame"] = {{"at_s", first_lit_frame->at_s},
-                                   {"cpu_s", first_lit_frame->cpu_s},
-                                   {"peak_memory_bytes", first_lit_frame->peak_memory_bytes}};
+        json["first_lit_frame"] = {{"at_s", first_lit_frame->mark.at_s},
+                                   {"cpu_s", first_lit_frame->mark.cpu_s},
+                                   {"peak_memory_bytes", first_lit_frame->mark.peak_memory_bytes},
+                                   {"frames_before", first_lit_frame->frames_before}};
     const std::string text = json.dump(2) + "\n";
     write_file(utf8_to_path(file), std::as_bytes(std::span(text)));
 }

@@ -45,9 +45,14 @@ ProcessMark mark_process();
 nlohmann::ordered_json to_json(const WorkLedger& work);
 /// The same, with "cpu_s" and "peak_memory_bytes" of this process so far. No file where its name is empty.
 void write_stats(const std::string& file, const WorkLedger& work);
-/// With "first_lit_frame", when the window first showed the object in its light.
+/// When the window first showed the object in its light.
+struct FirstLitFrame {
+    ProcessMark mark;
+    std::uint64_t frames_before = 0;  ///< shown without it
+};
+/// With "first_lit_frame".
 void write_stats(const std::string& file, const WorkLedger& work,
-                 const std::optional<ProcessMark>& first_lit_frame);
+                 const std::optional<FirstLitFrame>& first_lit_frame);
 
 /// CPU time of all threads of this process in seconds; the most memory it has had in bytes (0 where the
 /// system does not tell).

@@ -16,6 +16,12 @@ inline constexpr int kPaces = 3;
 
 class ViewPace {
 public:
+    ViewPace() = default;
+    /// Software is taken for slow until it has shown how fast it is: the first picture does not wait for
+    /// that.
+    explicit ViewPace(bool is_software) {
+        if (is_software) seconds_ = {kSlowInSoftware, kSlowInSoftware, 0.0};
+    }
     /// A frame with such a picture took so long. A good picture is drawn when all is still: then a quick one
     /// that was slow (the driver compiled a shader) gets another try after a while.
     void took(Pace quality, double seconds) {
@@ -31,7 +37,8 @@ public:
 
 private:
     static constexpr double kSlowSeconds = 0.04;  ///< longer than this does not feel like moving
-    std::array<double, kPaces> seconds_{};        ///< of the last one
+    static constexpr double kSlowInSoftware = 2.0 * kSlowSeconds;
+    std::array<double, kPaces> seconds_{};  ///< of the last one
 };
 
 }  // namespace patina

@@ -298,6 +298,8 @@ void Window::end_frame(Image* shown) {
     ++state_->frames;
 }
 
+void Window::drop_frame() { ImGui::EndFrame(); }
+
 /// As ImGui 1.86 draws it: seen for 0.8 s, gone until 1.2 s, and again; below 0 somebody has just typed.
 double Window::caret_changes_in_s() const {
     constexpr float seen = 0.8f, turn = 1.2f, after = 0.01f;

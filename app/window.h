@@ -53,6 +53,7 @@ public:
     /// Between them the interface is drawn; end_frame shows it.
     void begin_frame();
     void end_frame(Image* shown = nullptr);  ///< shown: gets the picture, 3 channels of 8 bits
+    void drop_frame();                       ///< instead of showing it
     /// Of the text field that has the keyboard: when its caret next appears or vanishes; infinity where none
     /// does.
     double caret_changes_in_s() const;

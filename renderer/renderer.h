@@ -112,6 +112,8 @@ public:
     void draw(const Scene& scene, RenderTarget& target, Reuse reuse = Reuse::None);
     /// From now on programs are taken from there where the driver agrees, and given there when compiled.
     void set_program_store(ProgramStore store);
+    /// Whether the processor draws, not a graphics card.
+    static bool is_software();
     /// How many rows of a picture of that size are best drawn at once, each other part by its crop:
     /// what lies under a picture's samples takes software more room than the picture.
     static int rows_at_once(const Scene& scene, glm::ivec2 size_px);

@@ -214,6 +214,8 @@ int Renderer::rows_at_once(const Scene& scene, glm::ivec2 size_px) {
     return (rows + quad - 1) / quad * quad;
 }
 
+bool Renderer::is_software() { return gl::is_software(); }
+
 bool Renderer::same_surface(const Scene& a, const Scene& b) {
     const auto key = [](const Scene& scene) {
         const Features features = features_of(scene.material, Renderer::ranges_of(scene), scene.view, 1.0f);

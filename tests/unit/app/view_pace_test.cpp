@@ -34,4 +34,14 @@ TEST(ViewPace, gives_a_quick_picture_that_was_slow_once_another_try) {
     EXPECT_EQ(pace.while_moving(), Pace::Good);
 }
 
+TEST(ViewPace, takes_software_for_slow_until_it_has_shown_how_fast_it_is) {
+    ViewPace pace(true);
+    EXPECT_EQ(pace.while_moving(), Pace::Rough);
+    pace.took(Pace::Rough, 0.01);
+    EXPECT_EQ(pace.while_moving(), Pace::Rough);
+    pace.took(Pace::Good, 0.02);
+    EXPECT_EQ(pace.while_moving(), Pace::Good);
+    EXPECT_EQ(ViewPace(false).while_moving(), Pace::Good);
+}
+
 }  // namespace
