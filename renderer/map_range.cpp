@@ -8,21 +8,47 @@ namespace patina {
 
 namespace {
 
-/// Over one level, as stored. NaN is neither smaller nor larger than anything.
+constexpr std::size_t kBlockPixels = 16;
+
+/// Over one level, as stored. NaN is neither smaller nor larger than anything. Many pixels at a time, each of
+/// their numbers for itself: compilers make vectors of that.
+template <int kChannels, class T>
+void widen(const Image& image, std::array<T, 4>& low, std::array<T, 4>& high) {
+    constexpr std::size_t block = kBlockPixels * kChannels;
+    const auto* value = reinterpret_cast<const T*>(image.bytes.data());
+    const std::size_t count = std::size_t(image.width) * std::size_t(image.height) * kChannels;
+    std::array<T, block> lowest, highest;
+    for (std::size_t i = 0; i < block; ++i) {
+        lowest[i] = low[i % kChannels];
+        highest[i] = high[i % kChannels];
+    }
+    const auto take = [&](const T* from, std::size_t numbers) {
+        for (std::size_t i = 0; i < numbers; ++i) {
+            const T x = from[i];
+            lowest[i] = x < lowest[i] ? x : lowest[i];
+            highest[i] = highest[i] < x ? x : highest[i];
+        }
+    };
+    std::size_t at = 0;
+    for (; at + block <= count; at += block) take(value + at, block);
+    take(value + at, count - at);
+    for (std::size_t i = 0; i < block; ++i) {
+        low[i % kChannels] = std::min(low[i % kChannels], lowest[i]);
+        high[i % kChannels] = std::max(high[i % kChannels], highest[i]);
+    }
+}
+
 template <class T>
 void widen(const Image& image, std::array<T, 4>& low, std::array<T, 4>& high) {
-    const auto* value = reinterpret_cast<const T*>(image.bytes.data());
-    const std::size_t pixels = std::size_t(image.width) * std::size_t(image.height);
-    const int channels = image.channels;
-    for (int c = 0; c < channels; ++c) {
-        T lowest = low[c], highest = high[c];
-        for (std::size_t i = 0; i < pixels; ++i) {
-            const T x = value[i * channels + c];
-            lowest = std::min(lowest, x);
-            highest = std::max(highest, x);
-        }
-        low[c] = lowest;
-        high[c] = highest;
+    switch (image.channels) {
+        case 1:
+            return widen<1>(image, low, high);
+        case 2:
+            return widen<2>(image, low, high);
+        case 3:
+            return widen<3>(image, low, high);
+        default:
+            return widen<4>(image, low, high);
     }
 }
 
