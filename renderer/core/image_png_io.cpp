@@ -212,6 +212,9 @@ const ImageCodec& png_codec() {
     return codec;
 }
 
+/// Of zlib's 9 the last that is quick: a third of the time of its usual 6, for files a tenth larger.
+static constexpr int kCompressionLevel = 4;
+
 std::vector<std::byte> encode_png(const Image& image, const ImageMetadata& metadata) {
     Writer writer;
     writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer.problem, on_error, on_warning);
@@ -222,6 +225,7 @@ std::vector<std::byte> encode_png(const Image& image, const ImageMetadata& metad
     attempt(writer.png, writer.problem, [&] {
         png_set_write_fn(writer.png, &writer, write_bytes, flush_bytes);
         png_set_user_limits(writer.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+        png_set_compression_level(writer.png, kCompressionLevel);
         png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(image.width),
                      static_cast<png_uint_32>(image.height), image.type == PixelType::U16 ? 16 : 8,
                      color_type(image.channels), PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
