@@ -5,7 +5,10 @@
 #include "materials/params.h"
 #include "materials/text_io.h"
 
+#include <algorithm>
+#include <functional>
 #include <stdexcept>
+#include <utility>
 
 namespace patina {
 
@@ -64,6 +67,10 @@ FoundMaterial material_of(const std::string& preset, const SceneOptions& options
 
 }  // namespace
 
+MeshAhead read_ahead(const Registry& registry, const std::string& id) {
+    return {id, std::async(std::launch::async, [&registry, id] { return load_mesh_part(registry, id); })};
+}
+
 SceneLoader::SceneLoader(Renderer& renderer, const Registry& registry, Options options)
     : renderer_(renderer), registry_(registry), options_(std::move(options)) {}
 
@@ -117,7 +124,9 @@ SceneLoader::LoadedMesh& SceneLoader::loaded_mesh(const std::string& id, bool wi
     }
     LoadedMesh& loaded = meshes_[{id, with_tangents}];
     if (loaded.handle) return loaded;
-    Mesh mesh = load_mesh_part(registry_, id);
+    MeshAhead& ahead = options_.mesh_ahead;
+    const bool is_ahead = ahead.id == id && ahead.mesh.valid();
+    Mesh mesh = is_ahead ? ahead.mesh.get() : load_mesh_part(registry_, id);
     const std::string about = id + ": ";
     for (const std::string& note : mesh.notes) options_.note(about + note);
     const bool make = with_tangents && !mesh.has_tangents;
@@ -128,8 +137,8 @@ SceneLoader::LoadedMesh& SceneLoader::loaded_mesh(const std::string& id, bool wi
     return loaded;
 }
 
-/// Row by row; whole where nothing is to be skipped.
-MapLevels SceneLoader::read_levels(const MapSource& source, int side) {
+/// Row by row; whole where nothing is to be skipped. From any thread.
+SceneLoader::ReadMap SceneLoader::read_map(const MapSource& source, int side) const {
     require_file(source);
     MapMaker maker(source.kind, source.color_space, side);
     const ImageRows rows{.begin = [&](const Image& shape) { maker.begin(shape); },
@@ -141,42 +150,81 @@ MapLevels SceneLoader::read_levels(const MapSource& source, int side) {
         whole = import_image(registry_, source.file);
         give_rows(whole.image, rows);
     }
+    ReadMap read;
     for (const std::string& note : whole.notes)
-        options_.note(path_to_utf8(source.file.filename()) + ": " + note);
-    count_reading(renderer_.work(), maker, whole.image.bytes.size());
-    return maker.take();
+        read.notes.push_back(path_to_utf8(source.file.filename()) + ": " + note);
+    count_reading(read.work, maker, whole.image.bytes.size());
+    read.levels = maker.take();
+    if (options_.skip) read.levels.ranges = channel_ranges(read.levels);
+    const bool single = options_.skip && keep_one_texel_of_constant(read.levels);
+    count_upload(read.work, read.levels, single);
+    return read;
 }
 
-MapLevels SceneLoader::read_map(const MapSource& source, const std::string& preset, int side) {
+/// A checkerboard where it cannot be read and that is allowed.
+SceneLoader::ReadMap SceneLoader::read_or_replaced(const MapSource& source, const std::string& preset,
+                                                   int side) const {
     try {
-        return read_levels(source, side);
+        return read_map(source, side);
     } catch (const std::runtime_error& error) {
-        if (!options_.allow_missing_maps)
-            throw std::runtime_error(preset + ": " + error.what() +
-                                     " (--allow-missing-maps draws a checkerboard in its place)");
-        options_.note(preset + ": " + error.what());
-        return make_map_levels(make_placeholder_map(), source.kind, source.color_space, side);
+        ReadMap read;
+        if (!options_.allow_missing_maps) {
+            read.error =
+                preset + ": " + error.what() + " (--allow-missing-maps draws a checkerboard in its place)";
+            return read;
+        }
+        read.notes.push_back(preset + ": " + error.what());
+        read.levels = make_map_levels(make_placeholder_map(), source.kind, source.color_space, side);
+        count_upload(read.work, read.levels);
+        return read;
     }
 }
 
-const SceneLoader::Map& SceneLoader::map(const MapSource& source, const std::string& preset, int side) {
-    const int slot = options_.skip ? -1 : int(source.slot);
-    Map& map = maps_[{path_to_utf8(source.file), source.kind, source.color_space, slot}];
-    if (map.handle && (map.side == 0 || (side > 0 && map.side >= side))) {
-        ++renderer_.work().maps_from_memory;
-        return map;
+SceneLoader::MapKey SceneLoader::key_of(const MapSource& source) const {
+    return {path_to_utf8(source.file), source.kind, source.color_space,
+            options_.skip ? -1 : int(source.slot)};
+}
+
+/// Those that are not there yet, beside each other.
+void SceneLoader::load_maps(const std::vector<MapSource>& sources, const std::string& preset, int side) {
+    std::map<MapKey, const MapSource*> missing;
+    for (const MapSource& source : sources) {
+        const Map& map = maps_[key_of(source)];
+        const bool is_there = map.handle && (map.side == 0 || (side > 0 && map.side >= side));
+        if (is_there || !missing.try_emplace(key_of(source), &source).second)
+            ++renderer_.work().maps_from_memory;
     }
-    const std::string name = path_to_utf8(source.file.filename());
-    options_.progress("loading " + name, 0.0f);
-    MapLevels levels = read_map(source, preset, side);
-    if (options_.skip) levels.ranges = channel_ranges(levels);
-    const bool single = options_.skip && keep_one_texel_of_constant(levels);
-    count_upload(renderer_.work(), levels, single);
+    if (missing.empty()) return;
+    options_.progress("loading maps of " + preset, 0.0f);
+    std::vector<std::pair<const MapSource*, ReadMap>> read;
+    for (const auto& [key, source] : missing) read.push_back({source, {}});
+    // The largest are begun first: then no thread is left with one of them alone.
+    const auto file_bytes = [](const auto& each) {
+        std::error_code ignored;
+        const std::uintmax_t bytes = fs::file_size(each.first->file, ignored);
+        return ignored ? 0 : bytes;
+    };
+    std::ranges::stable_sort(read, std::greater<>{}, file_bytes);
+    const auto read_one = [&](int i) {
+        auto& [source, map] = read[std::size_t(i)];
+        map = read_or_replaced(*source, preset, side);
+    };
+    if (options_.skip) options_.parallel_for(int(read.size()), read_one);
+    for (std::size_t i = 0; i < read.size(); ++i) {
+        if (!options_.skip) read_one(int(i));  // whole maps are large: one after the other
+        keep_map(*read[i].first, std::exchange(read[i].second, {}), side);
+    }
+}
+
+void SceneLoader::keep_map(const MapSource& source, ReadMap read, int side) {
+    if (!read.error.empty()) throw std::runtime_error(read.error);
+    for (const std::string& note : read.notes) options_.note(note);
+    add(renderer_.work(), read.work);
+    Map& map = maps_[key_of(source)];
     map.side = side;
-    map.handle = renderer_.upload_map(levels);
+    map.handle = renderer_.upload_map(read.levels);
     if (const std::string& note = Renderer::note_of(*map.handle); !note.empty())
-        options_.note(name + ": " + note);
-    return map;
+        options_.note(path_to_utf8(source.file.filename()) + ": " + note);
 }
 
 Scene SceneLoader::scene(const std::string& preset, const SceneOptions& options) {
@@ -186,8 +234,10 @@ Scene SceneLoader::scene(const std::string& preset, const SceneOptions& options)
     scene.mesh = mesh.handle;
     const Sight sight{options.camera, options_.skip ? options.size_px.y : 0};
     const int side = visible_map_side(mesh.uv_stretch, material.uv.scale, sight);
-    for (const MapSource& source : map_sources(material, file))
-        scene.maps[std::size_t(source.slot)] = map(source, preset, side).handle;
+    const std::vector<MapSource> sources = map_sources(material, file);
+    load_maps(sources, preset, side);
+    for (const MapSource& source : sources)
+        scene.maps[std::size_t(source.slot)] = maps_[key_of(source)].handle;
     scene.material = material;
     if (!options_.skip) return scene;
     Collapsed simpler = collapsed(material, Renderer::ranges_of(scene));

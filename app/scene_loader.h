@@ -1,4 +1,4 @@
-// From names to a scene the renderer can draw, one thing after the other on the calling thread: what the
+// From names to a scene the renderer can draw, on the calling thread but for what options share out: what the
 // commands use. Whatever was loaded once is kept and shared by everything that names it again.
 #pragma once
 
@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <map>
 #include <string>
 #include <tuple>
@@ -31,13 +32,21 @@ std::vector<MapSource> map_sources(const Material& material, const std::filesyst
 /// Decodes it; throws std::runtime_error with one sentence that names the map.
 LoadedImage load_map(const Registry& registry, const MapSource& source);
 
+/// A mesh that is read while something else goes on.
+struct MeshAhead {
+    std::string id;
+    std::future<Mesh> mesh;
+};
+MeshAhead read_ahead(const Registry& registry, const std::string& id);
+
 class SceneLoader {
 public:
     struct Options {
         ParallelFor parallel_for = serial_for;
         BakeCache cache;
         bool allow_missing_maps = false;
-        bool skip = true;  ///< false: prepares what any picture could need, for comparison
+        MeshAhead mesh_ahead = {};  ///< if that one is asked for
+        bool skip = true;           ///< false: prepares what any picture could need, for comparison
         std::function<void(const std::string&)> note = [](const std::string&) {};  ///< one sentence each
         std::function<void(const std::string& what, float fraction)> progress = [](const std::string&,
                                                                                    float) {};
@@ -66,18 +75,27 @@ private:
         MeshHandle handle;
         float uv_stretch = 0.0f;
     };
+    /// On its way from the file to the GPU.
+    struct ReadMap {
+        MapLevels levels;
+        std::vector<std::string> notes;
+        WorkLedger work;
+        std::string error;  ///< if it cannot be had
+    };
+    using MapKey = std::tuple<std::string, MapKind, ColorSpace, int>;  ///< last: the slot, if not shared
     LoadedMesh& loaded_mesh(const std::string& id, bool with_tangents);
-    const Map& map(const MapSource& source, const std::string& preset, int side);
-    MapLevels read_map(const MapSource& source, const std::string& preset, int side);
-    MapLevels read_levels(const MapSource& source, int side);
+    ReadMap read_map(const MapSource& source, int side) const;
+    ReadMap read_or_replaced(const MapSource& source, const std::string& preset, int side) const;
+    MapKey key_of(const MapSource& source) const;
+    void load_maps(const std::vector<MapSource>& sources, const std::string& preset, int side);
+    void keep_map(const MapSource& source, ReadMap read, int side);
 
     Renderer& renderer_;
     const Registry& registry_;
     Options options_;
     std::map<std::string, Light> lights_;
     std::map<std::pair<std::string, bool>, LoadedMesh> meshes_;
-    std::map<std::tuple<std::string, MapKind, ColorSpace, int>, Map>
-        maps_;  ///< last: the slot, if not shared
+    std::map<MapKey, Map> maps_;
 };
 
 }  // namespace patina

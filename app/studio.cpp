@@ -29,12 +29,14 @@ std::string confidence_text(const ReferenceProgress& progress, double wanted) {
 
 }  // namespace
 
-Studio::Studio(const Registry& registry, const SceneOptions& options)
-    : loader(
+Studio::Studio(const Registry& registry, const SceneOptions& options, MeshAhead mesh)
+    : mesh_ahead(std::move(mesh)),
+      loader(
           renderer, registry,
           {.parallel_for = jobs.parallel_for(),
            .cache = {.folder = cache_folder() / "ibl"},
            .allow_missing_maps = options.allow_missing_maps,
+           .mesh_ahead = std::move(mesh_ahead),
            .skip = options.skip,
            .note =
                [this](const std::string& sentence) {
