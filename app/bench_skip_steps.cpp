@@ -3,13 +3,16 @@
 #include "app/bench_stage.h"
 #include "app/stats.h"
 #include "app/temporary_folder.h"
+#include "app/view_pace.h"
 #include "materials/text_io.h"
+#include "renderer/core/image_io.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -19,6 +22,7 @@
 
 namespace patina {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 namespace {
@@ -217,7 +221,8 @@ Json bench_maps(BenchStage& stage, const BenchContext& context) {
 /// Milliseconds of one visit to an environment, from a picture under another one.
 struct Visit {
     double light = 0.0;  ///< until its light is on the GPU
-    double seen = 0.0;   ///< until the picture under it is drawn and read back
+    double first = 0.0;  ///< until the editor's first picture under it is drawn and read back
+    double seen = 0.0;   ///< likewise a good picture, drawn at once
     double drawn = 0.0;  ///< of that, drawing: the same change once more, with both lights there
     double mib = 0.0;    ///< allocated for it
     WorkLedger work;
@@ -231,25 +236,31 @@ struct SwitchRun {
 
 Visit visit_environment(BenchStage& stage, SceneLoader& loader, const Scene& before,
                         const std::string& environment) {
-    const TargetHandle target = stage.renderer.make_target(glm::ivec2(kSidePx));
-    const auto draw = [&](const Scene& scene) {
-        stage.renderer.draw(scene, *target, Reuse::IfRepeated);
-        stage.renderer.read_display(*target);
+    const Pace first = ViewPace(Renderer::is_software()).while_moving();
+    const auto target_at = [&](Pace pace) {
+        return stage.renderer.make_target(drawn_px(pace, glm::ivec2(kSidePx)), samples_a_pixel(pace));
+    };
+    const TargetHandle first_target = target_at(first), target = target_at(Pace::Good);
+    const auto draw = [&](const Scene& scene, RenderTarget& into) {
+        stage.renderer.draw(scene, into, Reuse::IfRepeated);
+        stage.renderer.read_display(into);
     };
     Scene scene = before;
     Visit visit;
-    draw(before);
+    draw(before, *first_target);
+    draw(before, *target);
     const double before_mib = allocated_mib();
     const WorkLedger work = stage.renderer.work();
     visit.seen = milliseconds([&] {
         visit.light = milliseconds(
             [&] { scene.environment = loader.environment(environment, loader.needed_light(scene)); });
-        draw(scene);
+        draw(scene, *target);
     });
     visit.mib = allocated_mib() - before_mib;
     visit.work = since(stage.renderer.work(), work);
-    draw(before);
-    visit.drawn = milliseconds([&] { draw(scene); });
+    draw(before, *target);
+    visit.drawn = milliseconds([&] { draw(scene, *target); });
+    visit.first = visit.light + milliseconds([&] { draw(scene, *first_target); });
     return visit;
 }
 
@@ -285,6 +296,7 @@ Json to_json(const std::vector<Visit>& visits) {
         return median(std::move(values));
     };
     return {{"light_ready_ms", median_of(&Visit::light)},
+            {"first_picture_ms", median_of(&Visit::first)},
             {"drawing_ms", median_of(&Visit::drawn)},
             {"seen_ms", median_of(&Visit::seen)},
             {"seen_less_drawing_ms", median_of([](const Visit& each) { return each.seen - each.drawn; })},
@@ -292,21 +304,44 @@ Json to_json(const std::vector<Visit>& visits) {
             {"work", to_json(visits.back().work).at("work")}};
 }
 
-Json bench_switch(BenchStage& stage, const BenchContext& context) {
-    const std::string& environment = context.environments.back();
+/// The studio as a photographer's panorama is stored: 4096×2048 half floats, compressed.
+void write_4k(const Registry& registry, const fs::path& file) {
+    const Environment source = load_environment(registry, "studio");
+    Image image = make_image(4096, 2048, 3, PixelType::F32);
+    const auto texel = [&](int x, int y) {
+        return source.radiance[std::size_t(std::clamp(y, 0, source.height - 1)) * std::size_t(source.width) +
+                               std::size_t((x + source.width) % source.width)];
+    };
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const glm::vec2 at = (glm::vec2(x, y) + 0.5f) / glm::vec2(image.width, image.height) *
+                                     glm::vec2(source.width, source.height) -
+                                 0.5f;
+            const glm::ivec2 from(glm::floor(at));
+            const glm::vec2 share = at - glm::vec2(from);
+            const glm::vec3 value = glm::mix(
+                glm::mix(texel(from.x, from.y), texel(from.x + 1, from.y), share.x),
+                glm::mix(texel(from.x, from.y + 1), texel(from.x + 1, from.y + 1), share.x), share.y);
+            std::memcpy(image.bytes.data() + 12 * (std::size_t(y) * 4096 + std::size_t(x)), &value, 12);
+        }
+    save_image(file, image);
+}
+
+Json bench_switch(BenchStage& stage, const BenchContext& context, const std::string& environment) {
     const SwitchRun run = run_switch(stage, context, environment);
     const double decode = median(run.decode);
-    Json json{{"environment", environment}, {"decode_ms", decode}, {"cases", Json::array()}};
-    std::printf("\n%-34s %8s %8s %8s %10s %8s %6s %8s   (decoding alone %.1f ms)\n",
-                ("environment " + path_to_utf8(utf8_to_path(environment).filename())).c_str(), "light ms",
-                "drawing", "seen ms", "less draw", "no skip", "MiB", "no skip", decode);
+    const std::string name = path_to_utf8(utf8_to_path(environment).filename());
+    Json json{{"environment", name}, {"decode_ms", decode}, {"cases", Json::array()}};
+    std::printf("\n%-34s %8s %8s %8s %8s %10s %8s %6s %8s   (decoding alone %.1f ms)\n",
+                ("environment " + name).c_str(), "light ms", "first", "drawing", "seen ms", "less draw",
+                "no skip", "MiB", "no skip", decode);
     for (std::size_t from = 0; from < SwitchRun::kNames.size(); ++from) {
         const Json own = to_json(run.visits[0][from]), all = to_json(run.visits[1][from]);
         const auto value = [](const Json& side, const char* key) { return side.at(key).get<double>(); };
-        std::printf("%-34s %8.1f %8.1f %8.1f %10.1f %8.1f %6.1f %8.1f\n", SwitchRun::kNames[from],
-                    value(own, "light_ready_ms"), value(own, "drawing_ms"), value(own, "seen_ms"),
-                    value(own, "seen_less_drawing_ms"), value(all, "seen_ms"), value(own, "mib"),
-                    value(all, "mib"));
+        std::printf("%-34s %8.1f %8.1f %8.1f %8.1f %10.1f %8.1f %6.1f %8.1f\n", SwitchRun::kNames[from],
+                    value(own, "light_ready_ms"), value(own, "first_picture_ms"), value(own, "drawing_ms"),
+                    value(own, "seen_ms"), value(own, "seen_less_drawing_ms"), value(all, "seen_ms"),
+                    value(own, "mib"), value(all, "mib"));
         json["cases"].push_back({{"name", SwitchRun::kNames[from]}, {"skip", own}, {"no_skip", all}});
     }
     return json;
@@ -320,7 +355,12 @@ void bench_skip_steps(const BenchContext& context, Json& json) {
     json["steps"] = bench_steps(stage, context);
     json["shared_views"] = shared_views(json["steps"], third_of(context));
     if (!context.preset.empty()) json["maps"] = bench_maps(stage, context);
-    json["environment_switch"] = bench_switch(stage, context);
+    const TemporaryFolder folder("patina-skip");
+    write_4k(context.registry, folder.path() / "studio-4k.exr");
+    json["environment_switch"] = Json::array();
+    for (const std::string& environment :
+         {context.environments.back(), path_to_utf8(folder.path() / "studio-4k.exr")})
+        json["environment_switch"].push_back(bench_switch(stage, context, environment));
 }
 
 }  // namespace patina

@@ -6,10 +6,6 @@
 
 namespace patina {
 
-namespace {
-constexpr int kSamples = 4;  ///< a pixel, of a good picture
-}
-
 Scene Loop::sheet_scene(std::size_t view, glm::ivec2 size_px) const {
     const Camera camera = fitted_to(camera_of_sheet(editor_, view), float(size_px.x) / float(size_px.y));
     return editor_.reconciler.scene_of(view, camera, view_of_sheet(editor_, view));
@@ -99,10 +95,10 @@ void Loop::draw_view(glm::ivec2 size_px) {
     // The very first picture is looked at before another one's shaders are compiled.
     if (has_drawn_ && !first_lit_frame_) return;
     const Pace quality = changed ? pace_.while_moving() : Pace::Good;
-    const glm::ivec2 pixels = quality == Pace::Rough ? (size_px + 1) / 2 : size_px;
+    const glm::ivec2 pixels = drawn_px(quality, size_px);
     TargetHandle& target = targets_[int(quality)];
     if (!target || Renderer::size_px(*target) != pixels)
-        target = renderer_.make_target(pixels, quality == Pace::Good ? kSamples : 1);
+        target = renderer_.make_target(pixels, samples_a_pixel(quality));
     if (target != target_)
         frames_wanted_ = std::max(frames_wanted_, 1);  // this frame still shows the old one
     size_px_ = size_px;

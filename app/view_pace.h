@@ -2,6 +2,8 @@
 // until it is still. Knows no window and no clock.
 #pragma once
 
+#include <glm/vec2.hpp>
+
 #include <algorithm>
 #include <array>
 
@@ -13,6 +15,12 @@ enum class Pace {
     Rough   ///< and half as many pixels each way
 };
 inline constexpr int kPaces = 3;
+
+/// Of a picture that is shown at size_px.
+inline glm::ivec2 drawn_px(Pace pace, glm::ivec2 size_px) {
+    return pace == Pace::Rough ? (size_px + 1) / 2 : size_px;
+}
+inline int samples_a_pixel(Pace pace) { return pace == Pace::Good ? 4 : 1; }
 
 class ViewPace {
 public:

@@ -57,9 +57,13 @@ TEST(BenchMarkdown, gives_time_memory_and_ledger_of_every_row_with_skipping_and_
         return Json{{"ms", ms}, {"mib", mib}, {"work", {{"draw_calls", calls}, {"views_drawn", 4}}}};
     };
     const auto visit = [](double ms, int decoded) {
-        return Json{{"light_ready_ms", ms}, {"drawing_ms", 8.0},
-                    {"seen_ms", ms + 8.5},  {"seen_less_drawing_ms", ms + 0.5},
-                    {"mib", 9.0},           {"work", {{"environments_decoded", decoded}}}};
+        return Json{{"light_ready_ms", ms},
+                    {"first_picture_ms", ms + 2.0},
+                    {"drawing_ms", 8.0},
+                    {"seen_ms", ms + 8.5},
+                    {"seen_less_drawing_ms", ms + 0.5},
+                    {"mib", 9.0},
+                    {"work", {{"environments_decoded", decoded}}}};
     };
     const auto command = [](double ms, int levels) {
         return Json{{"cpu_ms", ms},
@@ -78,19 +82,23 @@ TEST(BenchMarkdown, gives_time_memory_and_ledger_of_every_row_with_skipping_and_
                                 {"no_skip", step(4.0, 30.0, 12)},
                                 {"ratio", 0.75}}})},
         {"shared_views", Json::array({{{"name", "four / one"}, {"ratio", 1.25}}})},
-        {"environment_switch",
-         {{"decode_ms", 11.0},
-          {"cases",
-           Json::array({{{"name", "disk cache"}, {"skip", visit(7.0, 0)}, {"no_skip", visit(60.0, 1)}}})}}}};
+        {"environment_switch", Json::array({{{"environment", "room.hdr"},
+                                             {"decode_ms", 11.0},
+                                             {"cases", Json::array({{{"name", "disk cache"},
+                                                                     {"skip", visit(7.0, 0)},
+                                                                     {"no_skip", visit(60.0, 1)}}})}}})}};
     const std::string text = bench_markdown("skip", result);
     EXPECT_NE(text.find("| gold | 256 | 100 (200) | 200 (400) | 50 (100) | 0 | levels_baked 2 (16) |"),
               std::string::npos)
         << text;
     EXPECT_NE(text.find("| orbit | 3.0 (4.0) | 0.75 | 20.0 (30.0) | draw_calls 5 (12) |"), std::string::npos)
         << text;
-    EXPECT_NE(text.find("| disk cache | 7.0 (60.0) | 8.0 (8.0) | 15.5 (68.5) | 7.5 (60.5) | 9.0 (9.0) | "
-                        "environments_decoded 0 (1) |"),
-              std::string::npos)
+    EXPECT_NE(text.find("Another environment (room.hdr)"), std::string::npos) << text;
+    EXPECT_NE(
+        text.find(
+            "| disk cache | 7.0 (60.0) | 9.0 (62.0) | 8.0 (8.0) | 15.5 (68.5) | 7.5 (60.5) | 9.0 (9.0) | "
+            "environments_decoded 0 (1) |"),
+        std::string::npos)
         << text;
 }
 
