@@ -304,7 +304,7 @@ Json to_json(const std::vector<Visit>& visits) {
             {"work", to_json(visits.back().work).at("work")}};
 }
 
-/// The studio as a photographer's panorama is stored: 4096×2048 half floats, compressed.
+/// The studio as large as a photographer's panorama: 4096×2048, floats, compressed.
 void write_4k(const Registry& registry, const fs::path& file) {
     const Environment source = load_environment(registry, "studio");
     Image image = make_image(4096, 2048, 3, PixelType::F32);

@@ -1,6 +1,7 @@
 #include "app/window.h"
 
 #include "app/jobs.h"
+#include "ui/theme.h"
 #include "ui/workspace.h"
 
 #define GLFW_INCLUDE_NONE
@@ -105,6 +106,15 @@ GLFWwindow* open_window(const WindowOptions& options) {
             ". Update the graphics driver, or set LIBGL_ALWAYS_SOFTWARE=1 to draw in software.");
     }
     return window;
+}
+
+/// Until the first frame is there, an empty window in the interface's colour, not what lay under it.
+void show_empty(GLFWwindow* window) {
+    const ImVec4 color = ImGui::ColorConvertU32ToFloat4(ui::color::kPanel);
+    glClearColor(color.x, color.y, color.z, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glfwSwapInterval(0);  // nobody waits for the display here
+    glfwSwapBuffers(window);
 }
 
 /// Of the texture's edges nothing is drawn, but a software renderer compiles the interface's shader for each
@@ -221,6 +231,7 @@ Window::Window(const WindowOptions& options) : state_(std::make_unique<State>())
     state_->driven = options.driven;
     fit_to_monitor(state_->window);
     glfwMakeContextCurrent(state_->window);
+    show_empty(state_->window);
     glfwSwapInterval(1);
     state_->tells_loss = epoxy_has_gl_extension("GL_ARB_robustness");
     IMGUI_CHECKVERSION();
