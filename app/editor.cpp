@@ -219,7 +219,8 @@ void Loop::frame() {
                              .mesh_info = editor_.reconciler.mesh_info(),
                              .environment_info = editor_.reconciler.environment_info(),
                              .panels = editor_.registry.panels};
-    if (window_.frames() == 0) lay_out(context);
+    context.scale = window_.interface_scale();
+    if (window_.frames() == 0 && !editor_.document.sheet) lay_out(context);
     if (!has_drawn_) draw_view(place_px_);  // the first one is seen in this frame, not in the next
     context.sheet = editor_.document.sheet ? &*editor_.document.sheet : nullptr;
     fill_sheet(context);
@@ -233,7 +234,6 @@ void Loop::frame() {
     context.recovery = editor_.recovery_question ? &*editor_.recovery_question : nullptr;
     const std::optional<ui::Drop> drop = std::exchange(drop_, std::nullopt);
     context.drop = drop ? &*drop : nullptr;
-    context.scale = window_.interface_scale();
     context.recorder = &items_;
 
     const TargetHandle shown = target_;  // keep their textures alive until the interface is drawn
