@@ -322,7 +322,8 @@ void write_4k(const Registry& registry, const fs::path& file) {
             const glm::vec3 value = glm::mix(
                 glm::mix(texel(from.x, from.y), texel(from.x + 1, from.y), share.x),
                 glm::mix(texel(from.x, from.y + 1), texel(from.x + 1, from.y + 1), share.x), share.y);
-            std::memcpy(image.bytes.data() + 12 * (std::size_t(y) * 4096 + std::size_t(x)), &value, 12);
+            const std::size_t at_texel = std::size_t(y) * std::size_t(image.width) + std::size_t(x);
+            std::memcpy(image.bytes.data() + sizeof value * at_texel, &value, sizeof value);
         }
     save_image(file, image);
 }

@@ -90,7 +90,7 @@ void render_shots(const RenderArgs& args, const Registry& registry, const fs::pa
     const ImageExporter& exporter = image_exporter(registry, output);
     const std::vector<Shot> shots = missing_shots(args, output);
     if (shots.empty()) return say_up_to_date(args, output);
-    Studio studio(registry, args.scene, read_ahead(registry, args.scene.mesh));
+    Studio studio(registry, args.scene, MeshAhead(registry, args.scene.mesh));
     Scene scene = studio.loader.scene(args.presets.front(), args.scene);
     scene.environment =
         studio.loader.environment(args.scene.environments.front(), studio.loader.needed_light(scene));
@@ -169,7 +169,7 @@ int run_compare(const RenderArgs& args, const Registry& registry) {
         say_up_to_date(args, utf8_to_path(args.output));
         return 0;
     }
-    Studio studio(registry, args.scene, read_ahead(registry, args.scene.mesh));
+    Studio studio(registry, args.scene, MeshAhead(registry, args.scene.mesh));
     Sheet sheet(int(args.scene.environments.size()), int(args.presets.size()), args.scene.size_px,
                 radiance ? PixelType::F32 : PixelType::U8);
     for (std::size_t x = 0; x < args.scene.environments.size(); ++x)

@@ -186,12 +186,37 @@ void Loop::remember_shown() {
     last_frame_s_ = window_.time_s();
 }
 
-/// A frame that nobody sees: only then it is known how large the picture in the first one is.
-void Loop::lay_out(ui::PanelContext& context) {
+ui::PanelContext Loop::context_of(ViewBinding& edited) {
+    return {.material = editor_.document.material,
+            .view = edited.view,
+            .camera = edited.camera,
+            .mesh = edited.mesh,
+            .environment = edited.environment,
+            .ui = editor_.ui,
+            .browser = editor_.browser,
+            .import_sheet = editor_.import_sheet,
+            .saved_material = editor_.file.saved,
+            .saved_view = editor_.saved_view,
+            .home_camera = home_camera_,
+            .catalog = editor_.catalog,
+            .status = editor_.status,
+            .maps = editor_.reconciler.maps(),
+            .mesh_info = editor_.reconciler.mesh_info(),
+            .environment_info = editor_.reconciler.environment_info(),
+            .panels = editor_.registry.panels,
+            .scale = window_.interface_scale()};
+}
+
+/// A frame that nobody sees, and nothing follows from: it tells how large the picture in the first one is.
+void Loop::lay_out() {
+    window_.follow_scale();
+    ViewBinding view = bind_view(editor_);
+    ui::PanelContext context = context_of(view);
     window_.begin_frame();
     ui::draw_workspace(context);
     window_.drop_frame();
     place_px_ = context.result.viewport_size_px;
+    laid_out_px_ = window_.framebuffer_px();
 }
 
 void Loop::frame() {
@@ -202,25 +227,8 @@ void Loop::frame() {
 
     const ViewBinding bound = bind_view(editor_);
     ViewBinding edited = bound;
-    ui::PanelContext context{.material = editor_.document.material,
-                             .view = edited.view,
-                             .camera = edited.camera,
-                             .mesh = edited.mesh,
-                             .environment = edited.environment,
-                             .ui = editor_.ui,
-                             .browser = editor_.browser,
-                             .import_sheet = editor_.import_sheet,
-                             .saved_material = editor_.file.saved,
-                             .saved_view = editor_.saved_view,
-                             .home_camera = home_camera_,
-                             .catalog = editor_.catalog,
-                             .status = editor_.status,
-                             .maps = editor_.reconciler.maps(),
-                             .mesh_info = editor_.reconciler.mesh_info(),
-                             .environment_info = editor_.reconciler.environment_info(),
-                             .panels = editor_.registry.panels};
-    context.scale = window_.interface_scale();
-    if (window_.frames() == 0 && !editor_.document.sheet) lay_out(context);
+    ui::PanelContext context = context_of(edited);
+    if (window_.frames() == 0 && laid_out_px_ != window_.framebuffer_px()) lay_out();
     if (!has_drawn_) draw_view(place_px_);  // the first one is seen in this frame, not in the next
     context.sheet = editor_.document.sheet ? &*editor_.document.sheet : nullptr;
     fill_sheet(context);
@@ -322,6 +330,7 @@ void Loop::remember_window() {
 }
 
 void Loop::live() {
+    lay_out();
     while (!editor_.quit) {
         window_.wait(sleep_s());
         const double begin_ms = thread_work_ms();

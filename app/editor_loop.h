@@ -41,7 +41,8 @@ private:
     void think();
     bool awaits_first_picture() const;
     bool needs_frame() const;
-    void lay_out(ui::PanelContext& context);
+    ui::PanelContext context_of(ViewBinding& edited);
+    void lay_out();
     void frame();
     void draw_view(glm::ivec2 size_px);
     void draw_sheet(const std::vector<ui::SheetSize>& seen);
@@ -88,8 +89,9 @@ private:
     AccuracyMeter meter_;
     TargetHandle target_;  ///< what is shown, one of targets_
     std::array<TargetHandle, kPaces> targets_;
-    glm::ivec2 size_px_{0};   ///< of the picture on the screen
-    glm::ivec2 place_px_{0};  ///< that the last frame had for it
+    glm::ivec2 size_px_{0};      ///< of the picture on the screen
+    glm::ivec2 place_px_{0};     ///< that the last frame had for it
+    glm::ivec2 laid_out_px_{0};  ///< of the window, when the picture's place in it was found
     ViewPace pace_{Renderer::is_software()};
     Pace shown_ = Pace::Good;
     double changed_s_ = 0.0;        ///< when the picture was last another one

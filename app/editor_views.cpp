@@ -188,9 +188,9 @@ void Loop::want_thumbnails(const ui::WorkspaceResult& seen) {
             thumbnails.want(Thumbnails::Kind::Picture, row.file);
 }
 
-/// Before the first frame the view is taken to be as high as the window.
+/// As large as the picture is shown, however it is drawn; where none is, as the window.
 Sight Loop::sight() const {
-    const int height = target_ ? Renderer::size_px(*target_).y : window_.framebuffer_px().y;
+    const int height = place_px_.y > 0 ? place_px_.y : window_.framebuffer_px().y;
     return {editor_.camera, std::max(height, 1)};
 }
 

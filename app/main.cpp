@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
     }
     try {
         patina::keep_driver_off_a_full_disk();
-        if (parsed.args->command != patina::Command::Edit) patina::share_one_heap();
+        if (parsed.args->command != patina::Command::Edit) patina::share_freed_memory();
         return run(*parsed.args);
     } catch (const std::exception& error) {
         patina::say(error.what());

@@ -10,7 +10,7 @@ namespace {
 constexpr int kFreshBytes = 32 << 20;  ///< less than that is taken again without the system clearing it anew
 }
 
-void share_one_heap() {
+void share_freed_memory() {
 #ifdef M_ARENA_MAX
     mallopt(M_ARENA_MAX, 1);
     mallopt(M_MMAP_THRESHOLD, kFreshBytes);

@@ -1,5 +1,6 @@
 #include "app/scene_loader.h"
 
+#include "app/jobs.h"
 #include "app/stats.h"
 #include "materials/material_io.h"
 #include "materials/params.h"
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -67,8 +69,16 @@ FoundMaterial material_of(const std::string& preset, const SceneOptions& options
 
 }  // namespace
 
-MeshAhead read_ahead(const Registry& registry, const std::string& id) {
-    return {id, std::async(std::launch::async, [&registry, id] { return load_mesh_part(registry, id); })};
+MeshAhead::MeshAhead(const Registry& registry, std::string id)
+    : id_(std::move(id)), mesh_(std::make_shared<Mesh>()), stop_(std::stop_source()) {
+    wait_ = begin_beside([&registry, id = id_, mesh = mesh_, stop = stop_.get_token()] {
+        *mesh = load_mesh_part(registry, id, stop);
+    });
+}
+
+Mesh MeshAhead::take() {
+    std::exchange(wait_, {})();
+    return std::move(*mesh_);
 }
 
 SceneLoader::SceneLoader(Renderer& renderer, const Registry& registry, Options options)
@@ -125,8 +135,7 @@ SceneLoader::LoadedMesh& SceneLoader::loaded_mesh(const std::string& id, bool wi
     LoadedMesh& loaded = meshes_[{id, with_tangents}];
     if (loaded.handle) return loaded;
     MeshAhead& ahead = options_.mesh_ahead;
-    const bool is_ahead = ahead.id == id && ahead.mesh.valid();
-    Mesh mesh = is_ahead ? ahead.mesh.get() : load_mesh_part(registry_, id);
+    Mesh mesh = ahead.is_of(id) ? ahead.take() : load_mesh_part(registry_, id);
     const std::string about = id + ": ";
     for (const std::string& note : mesh.notes) options_.note(about + note);
     const bool make = with_tangents && !mesh.has_tangents;
@@ -135,6 +144,13 @@ SceneLoader::LoadedMesh& SceneLoader::loaded_mesh(const std::string& id, bool wi
     loaded.uv_stretch = uv_stretch(mesh);
     loaded.handle = renderer_.upload_mesh(mesh);
     return loaded;
+}
+
+/// What is known of the map once all of it is there.
+void SceneLoader::finish(ReadMap& read) const {
+    if (options_.skip) read.levels.ranges = channel_ranges(read.levels);
+    const bool single = options_.skip && keep_one_texel_of_constant(read.levels);
+    count_upload(read.work, read.levels, single);
 }
 
 /// Row by row; whole where nothing is to be skipped. From any thread.
@@ -155,9 +171,7 @@ SceneLoader::ReadMap SceneLoader::read_map(const MapSource& source, int side) co
         read.notes.push_back(path_to_utf8(source.file.filename()) + ": " + note);
     count_reading(read.work, maker, whole.image.bytes.size());
     read.levels = maker.take();
-    if (options_.skip) read.levels.ranges = channel_ranges(read.levels);
-    const bool single = options_.skip && keep_one_texel_of_constant(read.levels);
-    count_upload(read.work, read.levels, single);
+    finish(read);
     return read;
 }
 
@@ -175,45 +189,65 @@ SceneLoader::ReadMap SceneLoader::read_or_replaced(const MapSource& source, cons
         }
         read.notes.push_back(preset + ": " + error.what());
         read.levels = make_map_levels(make_placeholder_map(), source.kind, source.color_space, side);
-        count_upload(read.work, read.levels);
+        finish(read);
         return read;
     }
 }
+
+namespace {
+
+constexpr int kLargestSideBeside = 2048;  ///< of maps that are read beside each other
+
+/// By their files: no thread is left with a large one alone.
+std::vector<std::size_t> largest_first(const std::vector<const MapSource*>& maps) {
+    std::vector<std::uintmax_t> bytes;
+    for (const MapSource* map : maps) {
+        std::error_code ignored;
+        const std::uintmax_t size = fs::file_size(map->file, ignored);
+        bytes.push_back(ignored ? 0 : size);
+    }
+    std::vector<std::size_t> order(maps.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, std::greater<>{}, [&](std::size_t i) { return bytes[i]; });
+    return order;
+}
+
+}  // namespace
 
 SceneLoader::MapKey SceneLoader::key_of(const MapSource& source) const {
     return {path_to_utf8(source.file), source.kind, source.color_space,
             options_.skip ? -1 : int(source.slot)};
 }
 
-/// Those that are not there yet, beside each other.
+/// Those that are not there yet.
 void SceneLoader::load_maps(const std::vector<MapSource>& sources, const std::string& preset, int side) {
-    std::map<MapKey, const MapSource*> missing;
+    std::vector<const MapSource*> missing;
+    const auto is_missing = [&](const MapKey& key) {
+        return std::ranges::any_of(missing, [&](const MapSource* each) { return key_of(*each) == key; });
+    };
     for (const MapSource& source : sources) {
         const Map& map = maps_[key_of(source)];
         const bool is_there = map.handle && (map.side == 0 || (side > 0 && map.side >= side));
-        if (is_there || !missing.try_emplace(key_of(source), &source).second)
+        if (is_there || is_missing(key_of(source)))
             ++renderer_.work().maps_from_memory;
+        else
+            missing.push_back(&source);
     }
     if (missing.empty()) return;
     options_.progress("loading maps of " + preset, 0.0f);
-    std::vector<std::pair<const MapSource*, ReadMap>> read;
-    for (const auto& [key, source] : missing) read.push_back({source, {}});
-    // The largest are begun first: then no thread is left with one of them alone.
-    const auto file_bytes = [](const auto& each) {
-        std::error_code ignored;
-        const std::uintmax_t bytes = fs::file_size(each.first->file, ignored);
-        return ignored ? 0 : bytes;
-    };
-    std::ranges::stable_sort(read, std::greater<>{}, file_bytes);
-    const auto read_one = [&](int i) {
-        auto& [source, map] = read[std::size_t(i)];
-        map = read_or_replaced(*source, preset, side);
-    };
-    if (options_.skip) options_.parallel_for(int(read.size()), read_one);
-    for (std::size_t i = 0; i < read.size(); ++i) {
-        if (!options_.skip) read_one(int(i));  // whole maps are large: one after the other
-        keep_map(*read[i].first, std::exchange(read[i].second, {}), side);
+    // Of large ones, several at once take too much room.
+    if (side == 0 || side > kLargestSideBeside) {
+        for (const MapSource* source : missing)
+            keep_map(*source, read_or_replaced(*source, preset, side), side);
+        return;
     }
+    std::vector<ReadMap> read(missing.size());
+    const std::vector<std::size_t> order = largest_first(missing);
+    options_.parallel_for(int(order.size()), [&](int i) {
+        const std::size_t at = order[std::size_t(i)];
+        read[at] = read_or_replaced(*missing[at], preset, side);
+    });
+    for (std::size_t i = 0; i < read.size(); ++i) keep_map(*missing[i], std::exchange(read[i], {}), side);
 }
 
 void SceneLoader::keep_map(const MapSource& source, ReadMap read, int side) {

@@ -11,8 +11,9 @@
 
 #include <filesystem>
 #include <functional>
-#include <future>
 #include <map>
+#include <memory>
+#include <stop_token>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -32,12 +33,25 @@ std::vector<MapSource> map_sources(const Material& material, const std::filesyst
 /// Decodes it; throws std::runtime_error with one sentence that names the map.
 LoadedImage load_map(const Registry& registry, const MapSource& source);
 
-/// A mesh that is read while something else goes on.
-struct MeshAhead {
-    std::string id;
-    std::future<Mesh> mesh;
+/// A mesh that is read while something else goes on. One that nobody takes is not read to its end.
+class MeshAhead {
+public:
+    MeshAhead() = default;
+    /// The registry must outlive it.
+    MeshAhead(const Registry& registry, std::string id);
+    ~MeshAhead() { stop_.request_stop(); }
+    MeshAhead(MeshAhead&&) = default;
+    MeshAhead& operator=(MeshAhead&&) = delete;
+    bool is_of(const std::string& id) const { return wait_ && id == id_; }
+    /// Once; throws what reading it threw.
+    Mesh take();
+
+private:
+    std::string id_;
+    std::shared_ptr<Mesh> mesh_;
+    std::stop_source stop_{std::nostopstate};
+    std::function<void()> wait_;
 };
-MeshAhead read_ahead(const Registry& registry, const std::string& id);
 
 class SceneLoader {
 public:
@@ -84,6 +98,7 @@ private:
     };
     using MapKey = std::tuple<std::string, MapKind, ColorSpace, int>;  ///< last: the slot, if not shared
     LoadedMesh& loaded_mesh(const std::string& id, bool with_tangents);
+    void finish(ReadMap& read) const;
     ReadMap read_map(const MapSource& source, int side) const;
     ReadMap read_or_replaced(const MapSource& source, const std::string& preset, int side) const;
     MapKey key_of(const MapSource& source) const;

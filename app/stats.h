@@ -40,16 +40,16 @@ struct ProcessMark {
     std::uint64_t peak_memory_bytes = 0;
 };
 ProcessMark mark_process();
-
-/// {"work": {every counter}, "skipped": [{"what", "why", "times"}]}
-nlohmann::ordered_json to_json(const WorkLedger& work);
-/// The same, with "cpu_s" and "peak_memory_bytes" of this process so far. No file where its name is empty.
-void write_stats(const std::string& file, const WorkLedger& work);
 /// When the window first showed the object in its light.
 struct FirstLitFrame {
     ProcessMark mark;
     std::uint64_t frames_before = 0;  ///< shown without it
 };
+
+/// {"work": {every counter}, "skipped": [{"what", "why", "times"}]}
+nlohmann::ordered_json to_json(const WorkLedger& work);
+/// The same, with "cpu_s" and "peak_memory_bytes" of this process so far. No file where its name is empty.
+void write_stats(const std::string& file, const WorkLedger& work);
 /// With "first_lit_frame".
 void write_stats(const std::string& file, const WorkLedger& work,
                  const std::optional<FirstLitFrame>& first_lit_frame);

@@ -30,13 +30,12 @@ std::string confidence_text(const ReferenceProgress& progress, double wanted) {
 }  // namespace
 
 Studio::Studio(const Registry& registry, const SceneOptions& options, MeshAhead mesh)
-    : mesh_ahead(std::move(mesh)),
-      loader(
+    : loader(
           renderer, registry,
           {.parallel_for = jobs.parallel_for(),
            .cache = {.folder = cache_folder() / "ibl"},
            .allow_missing_maps = options.allow_missing_maps,
-           .mesh_ahead = std::move(mesh_ahead),
+           .mesh_ahead = std::move(mesh),
            .skip = options.skip,
            .note =
                [this](const std::string& sentence) {

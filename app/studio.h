@@ -9,15 +9,14 @@
 namespace patina {
 
 struct Studio {
-    MeshAhead mesh_ahead;  ///< the driver takes as long to open as a mesh to be read
     HeadlessContext context;
     Renderer renderer;
     Jobs jobs{worker_count()};
     ProgressLine progress;
     SceneLoader loader;
 
-    /// Says notes on standard error and shows progress where a person watches. mesh: the first that is asked
-    /// for, if that is known.
+    /// Says notes on standard error and shows progress where a person watches. mesh: one that will be asked
+    /// for, begun before, since the driver takes as long to open as a mesh to be read.
     Studio(const Registry& registry, const SceneOptions& options, MeshAhead mesh = {});
     /// Drawn in parts where that takes less room. The reference says how well it is known.
     Image picture(Scene scene, glm::ivec2 size_px, bool radiance, Reuse reuse = Reuse::Within);

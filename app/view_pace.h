@@ -45,8 +45,8 @@ public:
 
 private:
     static constexpr double kSlowSeconds = 0.04;  ///< longer than this does not feel like moving
-    static constexpr double kSlowInSoftware = 2.0 * kSlowSeconds;
-    std::array<double, kPaces> seconds_{};  ///< of the last one
+    static constexpr double kSlowInSoftware = 2.0 * kSlowSeconds;  ///< until the first good picture halves it
+    std::array<double, kPaces> seconds_{};                         ///< of the last one
 };
 
 }  // namespace patina

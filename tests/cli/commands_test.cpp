@@ -199,6 +199,12 @@ TEST(Render, a_missing_map_is_one_sentence_that_names_it) {
     expect_one_sentence(work, {"render", "p.json", "-o", "a.png"}, "gone.png");
 }
 
+TEST(Render, of_several_missing_maps_the_first_slot_is_named) {
+    const Workspace work;
+    work.write("p.json", R"({"albedo": {"map": "z.png"}, "roughness": {"map": "a.png"}})");
+    expect_one_sentence(work, {"render", "p.json", "-o", "a.png"}, "z.png");
+}
+
 TEST(Render, a_missing_map_may_be_allowed_and_is_told) {
     const Workspace work;
     work.write("p.json", R"({"albedo": {"map": "gone.png"}})");

@@ -330,8 +330,21 @@ TEST(Editor, shows_the_object_in_its_light_in_the_first_frame) {
     const Folder home;
     start_small(home, 500, 360);
     const fs::path stats = home / "stats.json";
+    EXPECT_DRIVEN(drive(home, "wait idle\n", {"-"}));  // the light is kept
     EXPECT_DRIVEN(drive(home, "wait until views>0\n", {"-", "--stats", stats.string()}));
     EXPECT_EQ(counted(stats, "frames_before"), 0u);
+}
+
+TEST(Editor, reads_a_map_once_however_its_first_pictures_are_drawn) {
+    const Folder home;
+    start_small(home, 700, 420);
+    save_image(home / "large.png", make_image(4096, 4096, 3, PixelType::U8));
+    write_text(home / "p.json", R"({"albedo": {"map": "large.png"}, "emission": {"map": "large.png"}})");
+    EXPECT_DRIVEN(drive(home, R"(
+wait idle
+expect maps_loaded=1
+)",
+                        {(home / "p.json").string()}));
 }
 
 TEST(SlowEditor, shows_the_interface_first_where_the_object_takes_long_to_read) {

@@ -37,10 +37,24 @@ int heaps_with_a_thread() {
 }
 
 /// Each in a process of its own, which has no threads yet.
-TEST(Memory, threads_share_one_heap_where_that_is_asked_for) {
+TEST(Memory, threads_share_freed_memory_where_that_is_asked_for) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     EXPECT_EXIT(std::exit(heaps_with_a_thread()), testing::ExitedWithCode(2), "");
-    EXPECT_EXIT((share_one_heap(), std::exit(heaps_with_a_thread())), testing::ExitedWithCode(1), "");
+    EXPECT_EXIT((share_freed_memory(), std::exit(heaps_with_a_thread())), testing::ExitedWithCode(1), "");
+}
+
+/// Pieces that the system gave for themselves, once 4 MiB are allocated.
+int pieces_with_a_large_one() {
+    const std::vector<std::byte> large(std::size_t{4} << 20);
+    return int(mallinfo2().hblks);
+}
+
+TEST(Memory, large_pieces_come_from_what_was_freed_where_that_is_asked_for) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    EXPECT_EXIT(std::exit(pieces_with_a_large_one() - int(mallinfo2().hblks)), testing::ExitedWithCode(1),
+                "");
+    EXPECT_EXIT((share_freed_memory(), std::exit(pieces_with_a_large_one() - int(mallinfo2().hblks))),
+                testing::ExitedWithCode(0), "");
 }
 
 #endif

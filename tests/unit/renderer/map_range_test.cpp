@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace patina {
 namespace {
 
@@ -25,6 +27,27 @@ TEST(MapRange, spans_the_numbers_that_are_sampled) {
     EXPECT_EQ(ranges[1].high, 1.0f);
     map.levels.push_back(make_image(2, 1, 4, PixelType::U8));  // black: what smaller levels hold counts too
     EXPECT_EQ(channel_ranges(map)[0].low, 0.0f);
+}
+
+TEST(MapRange, finds_what_is_smallest_and_largest_wherever_it_lies) {
+    for (const PixelType type : {PixelType::U8, PixelType::U16, PixelType::F32})
+        for (const int channels : {1, 2, 3, 4})
+            for (const int at : {0, 15, 16, 50, 110}) {  // of 37 × 3 pixels
+                MapLevels map;
+                map.levels = {make_image(37, 3, channels, type)};
+                Image& image = map.levels[0];
+                for (int i = 0; i < 37 * 3; ++i)
+                    for (int c = 0; c < channels; ++c) set_texel(image, i % 37, i / 37, c, 0.4f);
+                const int channel = channels - 1;
+                set_texel(image, at % 37, at / 37, channel, 0.8f);
+                set_texel(image, (at + 30) % 37, at / 37, channel, 0.2f);
+                if (type == PixelType::F32) set_texel(image, (at + 3) % 37, at / 37, channel, std::nanf(""));
+                const ChannelRanges ranges = channel_ranges(map);
+                const int row = channels == 2 ? 3 : channel;  // grey and alpha
+                EXPECT_NEAR(ranges[row].low, 0.2f, 2e-3f) << channels << ' ' << at;
+                EXPECT_NEAR(ranges[row].high, 0.8f, 2e-3f) << channels << ' ' << at;
+                if (channels > 1) EXPECT_TRUE(ranges[0].is_single()) << channels << ' ' << at;
+            }
 }
 
 TEST(MapRange, of_grey_is_the_same_in_every_colour) {
