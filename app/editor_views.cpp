@@ -188,10 +188,11 @@ void Loop::want_thumbnails(const ui::WorkspaceResult& seen) {
             thumbnails.want(Thumbnails::Kind::Picture, row.file);
 }
 
-/// As large as the picture is shown, however it is drawn; where none is, as the window.
+/// As large as the picture is shown, however it is drawn, or was last; before, as the window.
 Sight Loop::sight() const {
-    const int height = place_px_.y > 0 ? place_px_.y : window_.framebuffer_px().y;
-    return {editor_.camera, std::max(height, 1)};
+    for (const int height : {place_px_.y, size_px_.y, window_.framebuffer_px().y})
+        if (height > 0) return {editor_.camera, height};
+    return {editor_.camera, 1};
 }
 
 }  // namespace patina
