@@ -70,7 +70,8 @@ FoundMaterial material_of(const std::string& preset, const SceneOptions& options
 }  // namespace
 
 MeshAhead::MeshAhead(const Registry& registry, std::string id)
-    : id_(std::move(id)), mesh_(std::make_shared<Mesh>()), stop_(std::stop_source()) {
+    : id_(std::move(id)), mesh_(std::make_shared<Mesh>()) {
+    stop_ = std::stop_source();
     wait_ = begin_beside([&registry, id = id_, mesh = mesh_, stop = stop_.get_token()] {
         *mesh = load_mesh_part(registry, id, stop);
     });
@@ -247,10 +248,13 @@ void SceneLoader::load_maps(const std::vector<MapSource>& sources, const std::st
         const std::size_t at = order[std::size_t(i)];
         read[at] = read_or_replaced(*missing[at], preset, side);
     });
-    for (std::size_t i = 0; i < read.size(); ++i) keep_map(*missing[i], std::exchange(read[i], {}), side);
+    for (std::size_t i = 0; i < read.size(); ++i) {
+        keep_map(*missing[i], read[i], side);
+        read[i] = {};
+    }
 }
 
-void SceneLoader::keep_map(const MapSource& source, ReadMap read, int side) {
+void SceneLoader::keep_map(const MapSource& source, const ReadMap& read, int side) {
     if (!read.error.empty()) throw std::runtime_error(read.error);
     for (const std::string& note : read.notes) options_.note(note);
     add(renderer_.work(), read.work);

@@ -41,6 +41,8 @@ public:
     MeshAhead(const Registry& registry, std::string id);
     ~MeshAhead() { stop_.request_stop(); }
     MeshAhead(MeshAhead&&) = default;
+    MeshAhead(const MeshAhead&) = delete;
+    MeshAhead& operator=(const MeshAhead&) = delete;
     MeshAhead& operator=(MeshAhead&&) = delete;
     bool is_of(const std::string& id) const { return wait_ && id == id_; }
     /// Once; throws what reading it threw.
@@ -103,7 +105,7 @@ private:
     ReadMap read_or_replaced(const MapSource& source, const std::string& preset, int side) const;
     MapKey key_of(const MapSource& source) const;
     void load_maps(const std::vector<MapSource>& sources, const std::string& preset, int side);
-    void keep_map(const MapSource& source, ReadMap read, int side);
+    void keep_map(const MapSource& source, const ReadMap& read, int side);
 
     Renderer& renderer_;
     const Registry& registry_;
