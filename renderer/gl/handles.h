@@ -35,74 +35,28 @@ private:
     GLuint name_ = 0;
 };
 
-struct TextureKind {
+/// Of objects whose names come from glGen*, many at a time.
+template <auto& generate, auto& remove>
+struct GeneratedKind {
     static GLuint create() {
         GLuint name = 0;
-        glGenTextures(1, &name);
+        generate(1, &name);
         return name;
     }
-    static void destroy(GLuint name) { glDeleteTextures(1, &name); }
-};
-struct SamplerKind {
-    static GLuint create() {
-        GLuint name = 0;
-        glGenSamplers(1, &name);
-        return name;
-    }
-    static void destroy(GLuint name) { glDeleteSamplers(1, &name); }
-};
-struct BufferKind {
-    static GLuint create() {
-        GLuint name = 0;
-        glGenBuffers(1, &name);
-        return name;
-    }
-    static void destroy(GLuint name) { glDeleteBuffers(1, &name); }
-};
-struct VertexArrayKind {
-    static GLuint create() {
-        GLuint name = 0;
-        glGenVertexArrays(1, &name);
-        return name;
-    }
-    static void destroy(GLuint name) { glDeleteVertexArrays(1, &name); }
-};
-struct QueryKind {
-    static GLuint create() {
-        GLuint name = 0;
-        glGenQueries(1, &name);
-        return name;
-    }
-    static void destroy(GLuint name) { glDeleteQueries(1, &name); }
-};
-struct FramebufferKind {
-    static GLuint create() {
-        GLuint name = 0;
-        glGenFramebuffers(1, &name);
-        return name;
-    }
-    static void destroy(GLuint name) { glDeleteFramebuffers(1, &name); }
-};
-struct RenderbufferKind {
-    static GLuint create() {
-        GLuint name = 0;
-        glGenRenderbuffers(1, &name);
-        return name;
-    }
-    static void destroy(GLuint name) { glDeleteRenderbuffers(1, &name); }
+    static void destroy(GLuint name) { remove(1, &name); }
 };
 struct ProgramKind {
     static GLuint create() { return glCreateProgram(); }
     static void destroy(GLuint name) { glDeleteProgram(name); }
 };
 
-using Texture = Handle<TextureKind>;
-using Sampler = Handle<SamplerKind>;
-using Buffer = Handle<BufferKind>;
-using VertexArray = Handle<VertexArrayKind>;
-using Framebuffer = Handle<FramebufferKind>;
-using Renderbuffer = Handle<RenderbufferKind>;
+using Texture = Handle<GeneratedKind<glGenTextures, glDeleteTextures>>;
+using Sampler = Handle<GeneratedKind<glGenSamplers, glDeleteSamplers>>;
+using Buffer = Handle<GeneratedKind<glGenBuffers, glDeleteBuffers>>;
+using VertexArray = Handle<GeneratedKind<glGenVertexArrays, glDeleteVertexArrays>>;
+using Framebuffer = Handle<GeneratedKind<glGenFramebuffers, glDeleteFramebuffers>>;
+using Renderbuffer = Handle<GeneratedKind<glGenRenderbuffers, glDeleteRenderbuffers>>;
 using Program = Handle<ProgramKind>;
-using Query = Handle<QueryKind>;
+using Query = Handle<GeneratedKind<glGenQueries, glDeleteQueries>>;
 
 }  // namespace patina::gl
