@@ -16,15 +16,15 @@ Environment make_furnace(int width);
 Environment make_test(int width);
 
 /// What is seen in one direction. Radiance may be rough only where the region changes.
-struct Sight {
+struct PaintedPoint {
     glm::vec3 radiance{0.0f};
     int region = 0;
 };
-using Scene = std::function<Sight(const glm::vec3& direction)>;
+using Painting = std::function<PaintedPoint(const glm::vec3& direction)>;
 
 /// width × width/2 texels (at least 2 × 1), each the mean of the scene over the texel: supersampled where the
 /// region differs from a neighbour's, painted finer and averaged by solid angle where texels are coarse.
-Environment paint_environment(int width, const Scene& scene);
+Environment paint_environment(int width, const Painting& scene);
 
 /// A round light.
 struct Disc {

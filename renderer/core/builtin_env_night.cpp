@@ -105,7 +105,7 @@ void add_town(Environment& environment) {
 
 Environment make_night(int width) {
     const std::vector<Disc> bulbs = bulb_discs();
-    Environment environment = paint_environment(width, [&](const glm::vec3& direction) -> Sight {
+    Environment environment = paint_environment(width, [&](const glm::vec3& direction) -> PaintedPoint {
         const glm::vec3 glow = halos(bulbs, direction);
         if (direction.y >= 0.0f) return {night_sky(direction.y) + glow, 0};
         const float reach = kGround / direction.y;

@@ -48,14 +48,14 @@ struct Canvas {
     std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
 };
 
-Canvas paint_centres(int width, int height, const Scene& scene) {
+Canvas paint_centres(int width, int height, const Painting& scene) {
     Canvas canvas{.width = width, .height = height};
     canvas.radiance.resize(static_cast<std::size_t>(width) * height);
     canvas.region.resize(canvas.radiance.size());
     const Grid grid(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const Sight sight = scene(grid.direction(x, y));
+            const PaintedPoint sight = scene(grid.direction(x, y));
             canvas.radiance[canvas.at(x, y)] = sight.radiance;
             canvas.region[canvas.at(x, y)] = sight.region;
         }
@@ -72,7 +72,7 @@ bool at_edge(const Canvas& canvas, int x, int y) {
     });
 }
 
-void refine_edges(Canvas& canvas, const Scene& scene) {
+void refine_edges(Canvas& canvas, const Painting& scene) {
     const Grid fine(canvas.width * kEdgeSamples, canvas.height * kEdgeSamples);
     for (int y = 0; y < canvas.height; ++y)
         for (int x = 0; x < canvas.width; ++x) {
@@ -183,7 +183,7 @@ std::vector<Share> disc_shares(const Environment& environment, const Disc& disc)
 
 }  // namespace
 
-Environment paint_environment(int width, const Scene& scene) {
+Environment paint_environment(int width, const Painting& scene) {
     Environment environment{.width = std::max(width, 2)};
     environment.height = environment.width / 2;
     const int factor = (kFineWidth + environment.width - 1) / environment.width;

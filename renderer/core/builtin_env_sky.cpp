@@ -50,7 +50,7 @@ Environment make_daylight(int width, const Daylight& daylight) {
     const PreethamSky sky(daylight.sun_direction, daylight.turbidity);
     const glm::vec3 ground = daylight.ground_albedo / kPi * ground_irradiance(sky);
     const float scale = daylight.units_per_kcd;
-    Environment environment = paint_environment(width, [&](const glm::vec3& direction) -> Sight {
+    Environment environment = paint_environment(width, [&](const glm::vec3& direction) -> PaintedPoint {
         if (direction.y >= 0.0f) return {scale * sky.radiance(direction), 0};
         const float clarity = ground_clarity(-direction.y);
         if (clarity > 0.999f) return {scale * ground, 1};
@@ -85,7 +85,7 @@ Environment make_overcast(int width) {
     constexpr glm::vec3 ground_albedo{0.25f, 0.24f, 0.22f};
     // Under the overcast sky of unit zenith the ground receives 7π/9.
     const glm::vec3 ground = ground_albedo * zenith * (7.0f / 9.0f);
-    return paint_environment(width, [=](const glm::vec3& direction) -> Sight {
+    return paint_environment(width, [=](const glm::vec3& direction) -> PaintedPoint {
         const glm::vec3 sky = zenith * overcast_luminance(std::max(direction.y, 0.0f));
         if (direction.y >= 0.0f) return {sky, 0};
         return {glm::mix(sky, ground, ground_clarity(-direction.y)), 1};

@@ -120,7 +120,7 @@ glm::vec3 room(const std::vector<Lamp>& lamps, const glm::vec3& direction) {
 
 Environment make_studio(int width) {
     const std::vector<Lamp> lamps(kSoftboxes.begin(), kSoftboxes.end());
-    return paint_environment(width, [&](const glm::vec3& direction) -> Sight {
+    return paint_environment(width, [&](const glm::vec3& direction) -> PaintedPoint {
         for (std::size_t i = 0; i < lamps.size(); ++i) {
             const float brightness = cloth(lamps[i], direction);
             if (brightness <= 0.0f) continue;
@@ -131,7 +131,7 @@ Environment make_studio(int width) {
 }
 
 Environment make_furnace(int width) {
-    return paint_environment(width, [](const glm::vec3&) -> Sight { return {glm::vec3(1.0f), 0}; });
+    return paint_environment(width, [](const glm::vec3&) -> PaintedPoint { return {glm::vec3(1.0f), 0}; });
 }
 
 }  // namespace patina

@@ -103,7 +103,7 @@ int face_of(const glm::vec3& direction) {
     return 2 * axis + (direction[axis] < 0.0f ? 1 : 0);
 }
 
-Sight look(const Graticule& graticule, const glm::vec3& direction) {
+PaintedPoint look(const Graticule& graticule, const glm::vec3& direction) {
     const int index = face_of(direction);
     const Face& face = kFaces[index];
     const glm::vec3 right = glm::cross(face.forward, face.up);
