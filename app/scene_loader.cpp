@@ -71,7 +71,6 @@ FoundMaterial material_of(const std::string& preset, const SceneOptions& options
 
 MeshAhead::MeshAhead(const Registry& registry, std::string id)
     : id_(std::move(id)), mesh_(std::make_shared<Mesh>()) {
-    stop_ = std::stop_source();
     wait_ = begin_beside([&registry, id = id_, mesh = mesh_, stop = stop_.get_token()] {
         *mesh = load_mesh_part(registry, id, stop);
     });

@@ -51,7 +51,7 @@ public:
 private:
     std::string id_;
     std::shared_ptr<Mesh> mesh_;
-    std::stop_source stop_{std::nostopstate};
+    std::stop_source stop_;
     std::function<void()> wait_;
 };
 

@@ -99,8 +99,6 @@ ProcessMark mark_process() {
             .peak_memory_bytes = process_peak_memory_bytes()};
 }
 
-void write_stats(const std::string& file, const WorkLedger& work) { write_stats(file, work, std::nullopt); }
-
 void write_stats(const std::string& file, const WorkLedger& work,
                  const std::optional<FirstLitFrame>& first_lit_frame) {
     if (file.empty()) return;

@@ -48,11 +48,10 @@ struct FirstLitFrame {
 
 /// {"work": {every counter}, "skipped": [{"what", "why", "times"}]}
 nlohmann::ordered_json to_json(const WorkLedger& work);
-/// The same, with "cpu_s" and "peak_memory_bytes" of this process so far. No file where its name is empty.
-void write_stats(const std::string& file, const WorkLedger& work);
-/// With "first_lit_frame".
+/// The same, with "cpu_s" and "peak_memory_bytes" of this process so far, and "first_lit_frame" where there
+/// was one. No file where its name is empty.
 void write_stats(const std::string& file, const WorkLedger& work,
-                 const std::optional<FirstLitFrame>& first_lit_frame);
+                 const std::optional<FirstLitFrame>& first_lit_frame = {});
 
 /// CPU time of all threads of this process in seconds; the most memory it has had in bytes (0 where the
 /// system does not tell).
