@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -304,30 +303,6 @@ Json to_json(const std::vector<Visit>& visits) {
             {"work", to_json(visits.back().work).at("work")}};
 }
 
-/// The studio as large as a photographer's panorama: 4096×2048, floats, compressed.
-void write_4k(const Registry& registry, const fs::path& file) {
-    const Environment source = load_environment(registry, "studio");
-    Image image = make_image(4096, 2048, 3, PixelType::F32);
-    const auto texel = [&](int x, int y) {
-        return source.radiance[std::size_t(std::clamp(y, 0, source.height - 1)) * std::size_t(source.width) +
-                               std::size_t((x + source.width) % source.width)];
-    };
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) {
-            const glm::vec2 at = (glm::vec2(x, y) + 0.5f) / glm::vec2(image.width, image.height) *
-                                     glm::vec2(source.width, source.height) -
-                                 0.5f;
-            const glm::ivec2 from(glm::floor(at));
-            const glm::vec2 share = at - glm::vec2(from);
-            const glm::vec3 value = glm::mix(
-                glm::mix(texel(from.x, from.y), texel(from.x + 1, from.y), share.x),
-                glm::mix(texel(from.x, from.y + 1), texel(from.x + 1, from.y + 1), share.x), share.y);
-            const std::size_t at_texel = std::size_t(y) * std::size_t(image.width) + std::size_t(x);
-            std::memcpy(image.bytes.data() + sizeof value * at_texel, &value, sizeof value);
-        }
-    save_image(file, image);
-}
-
 Json bench_switch(BenchStage& stage, const BenchContext& context, const std::string& environment) {
     const SwitchRun run = run_switch(stage, context, environment);
     const double decode = median(run.decode);
@@ -357,10 +332,10 @@ void bench_skip_steps(const BenchContext& context, Json& json) {
     json["shared_views"] = shared_views(json["steps"], third_of(context));
     if (!context.preset.empty()) json["maps"] = bench_maps(stage, context);
     const TemporaryFolder folder("patina-skip");
-    write_4k(context.registry, folder.path() / "studio-4k.exr");
+    const fs::path large = folder.path() / "studio-4k.exr";  // as a photographer's panorama
+    save_image(large, radiance_image(builtin_environments().front().make(4096)));
     json["environment_switch"] = Json::array();
-    for (const std::string& environment :
-         {context.environments.back(), path_to_utf8(folder.path() / "studio-4k.exr")})
+    for (const std::string& environment : {context.environments.back(), path_to_utf8(large)})
         json["environment_switch"].push_back(bench_switch(stage, context, environment));
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -127,6 +128,12 @@ glm::vec2 direction_to_equirect(glm::vec3 direction) {
     const float polar = std::atan2(across, direction.y);
     const float u = 0.5f + azimuth / (2.0f * std::numbers::pi_v<float>);
     return {u < 1.0f ? u : 0.0f, std::clamp(polar / std::numbers::pi_v<float>, 0.0f, 1.0f)};
+}
+
+Image radiance_image(const Environment& environment) {
+    Image image = make_image(environment.width, environment.height, 3, PixelType::F32);
+    std::memcpy(image.bytes.data(), environment.radiance.data(), image.bytes.size());
+    return image;
 }
 
 Environment make_environment(const Image& image, std::string id, std::string title) {

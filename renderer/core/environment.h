@@ -38,6 +38,8 @@ glm::vec2 direction_to_equirect(glm::vec3 direction);
 /// with a note). NaN and negative become 0, Inf the largest finite value present; each counted in notes. Any
 /// size, also not 2:1 (noted, taken as a full panorama). Throws std::runtime_error on an empty image.
 Environment make_environment(const Image& image, std::string id, std::string title);
+/// And back: its radiance, 3 channels of floats.
+Image radiance_image(const Environment& environment);
 
 /// What is kept of environments elsewhere ends with this number: raised whenever a file or a built-in
 /// environment becomes other radiance, another title or other notes.

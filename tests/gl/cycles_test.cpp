@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <vector>
 
 namespace patina {
@@ -100,12 +99,6 @@ std::vector<Seen> summed(double roughness, const Environment& environment) {
     return seen;
 }
 
-Image picture_of(const Environment& environment) {
-    Image image = make_image(environment.width, environment.height, 3, PixelType::F32);
-    std::memcpy(image.bytes.data(), environment.radiance.data(), image.bytes.size());
-    return image;
-}
-
 Image by_cycles(const fs::path& folder, const std::string& distribution, double roughness) {
     const auto quoted = [](const fs::path& path) { return " '" + path.string() + "'"; };
     const fs::path out = folder / (distribution + std::to_string(roughness) + ".exr");
@@ -151,7 +144,7 @@ TEST(SlowCycles, sees_the_same_white_sphere) {
         GTEST_SKIP() << "Blender is not installed (package blender)";
     const TemporaryFolder folder("patina-cycles");
     const Environment environment = room();
-    save_image(folder.path() / "room.exr", picture_of(environment));
+    save_image(folder.path() / "room.exr", radiance_image(environment));
     for (const double roughness : {0.3, 0.5, 0.8}) {
         const std::vector<Seen> sum = summed(roughness, environment);
         const Image ggx = by_cycles(folder.path(), "GGX", roughness);

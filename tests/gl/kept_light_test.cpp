@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 
 namespace patina {
 namespace {
@@ -23,9 +22,7 @@ void write_room(const std::filesystem::path& file) {
             return glm::vec3(0.3f + 0.2f * d.y + lamp, 0.4f + lamp, 0.6f - 0.3f * d.x + lamp);
         },
         256);
-    Image image = make_image(room.width, room.height, 3, PixelType::F32);
-    std::memcpy(image.bytes.data(), room.radiance.data(), image.bytes.size());
-    save_image(file, image);
+    save_image(file, radiance_image(room));
 }
 
 struct Look {
